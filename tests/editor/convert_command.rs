@@ -104,7 +104,7 @@ fn orders_that_cannot_be_right_are_errors_of_the_input_and_write_nothing() {
     let folder = Folder::new("convert-wrong");
     let fox = data("gltf/Fox.glb");
     let wrong = run(["convert", text(&fox), "-o", text(&folder.join("Fox.png"))]).expect(2);
-    assert!(wrong.stderr.contains("cannot be written; use .fbx, .dfm, .glb, "), "{}", wrong.stderr);
+    assert!(wrong.stderr.contains("cannot be written; use .fbx, .dfm, .glb, .gltf"), "{}", wrong.stderr);
     let cube = data("gltf/AnimatedMorphCube.glb");
     let two = ["convert", text(&fox), text(&cube), "-o", text(folder.path())];
     assert!(run(two).expect(2).stderr.contains("--to EXT must tell the format"));

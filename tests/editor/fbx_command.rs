@@ -44,6 +44,26 @@ fn fbx_files_are_converted_and_lose_no_take() {
 }
 
 #[test]
+fn models_are_written_as_fbx_for_another_program() {
+    let folder = Folder::new("fbx-preset");
+    let fox = data("gltf/Fox.glb");
+    let output = folder.join("Fox.fbx");
+    run(["convert", text(&fox), "-o", text(&output), "--preset", "blender"]).expect(0);
+    let printed = run(["convert", text(&output), "-o", text(&folder.join("again.glb"))]).expect(0);
+    assert!(printed.text().contains("1 unit = 1 m (file), Z up (file)"), "{}", printed.text());
+    let clips = folder.join("clips");
+    run(["takes", "extract", text(&fox), "--each", "--to", "fbx", "--preset", "unity", "-o", text(&clips)])
+        .expect(0);
+    for take in ["Survey", "Walk", "Run"] {
+        assert!(clips.join(format!("Fox@{take}.fbx")).is_file(), "{take}");
+    }
+    let unknown = run(["convert", text(&fox), "-o", text(&output), "--preset", "cinema"]).expect(2);
+    assert!(unknown.stderr.contains("use unity, unreal, maya, blender"), "{}", unknown.stderr);
+    let none = run(["convert", text(&fox), "-o", text(&folder.join("a.glb")), "--preset", "unity"]).expect(2);
+    assert!(none.stderr.contains(".glb files have no presets"), "{}", none.stderr);
+}
+
+#[test]
 fn edits_of_a_format_that_can_only_be_read_name_another_way() {
     let folder = Folder::new("fbx-edit");
     let cube = data("fbx/maya_blend_shape_cube_7700_binary.fbx");

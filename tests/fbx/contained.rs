@@ -100,6 +100,7 @@ fn the_parser_can_touch_nothing_outside() {
     listener.set_nonblocking(true).expect("a listener that does not block");
     let port = listener.local_addr().expect("an address");
     for fault in [
+        "cage".to_owned(),
         format!("open {}", path.display()),
         "open /proc/self/maps".to_owned(),
         format!("list {}", folder.path().display()),

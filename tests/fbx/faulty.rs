@@ -18,11 +18,11 @@ fn main() -> ExitCode {
     let parent = std::os::unix::process::parent_id();
     #[cfg(not(unix))]
     let parent = 0;
-    dragonfly_fbx::child::serve_with(|bytes| {
+    dragonfly_fbx::child::serve_with(|bytes, missing| {
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]).into_owned();
         let (word, argument) =
             text.strip_prefix("FAULT ")?.trim().split_once(' ').unwrap_or((text[6..].trim(), ""));
-        Some(fail(word, argument, parent))
+        Some(if word == "cage" { judge_cage(missing) } else { fail(word, argument, parent) })
     })
 }
 
@@ -71,6 +71,12 @@ fn fail(word: &str, argument: &str, parent: u32) -> ExitCode {
         }
         other => panic!("{other}, started by {parent}: an unknown fault"),
     }
+}
+
+/// Returns the exit code for the protections that are missing: an old kernel may lack Landlock, and nothing else.
+fn judge_cage(missing: &[String]) -> ExitCode {
+    let is_old = |reason: &String| reason.contains("not in this kernel") || reason.contains("a part only");
+    judge(if missing.iter().all(is_old) { Err(()) } else { Ok(()) })
 }
 
 /// Returns the exit code for the result of an attempt.

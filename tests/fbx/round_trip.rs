@@ -59,21 +59,32 @@ impl RoundTrip {
 
     /// Returns the bone that was read for each bone.
     pub(crate) fn bones(&self) -> Vec<usize> {
-        let places = |model: &ModelData| {
+        self.bones_at("")
+    }
+
+    /// Returns the bone that was read for each bone, below a root if one was added; and whether it was.
+    pub(crate) fn bones_below_root(&self) -> (Vec<usize>, bool) {
+        let count = |model: &ModelData| model.animation.skeleton.len();
+        let is_added = count(self.after.model()) > count(self.before.model());
+        (self.bones_at(if is_added { "/0" } else { "" }), is_added)
+    }
+
+    fn bones_at(&self, top: &str) -> Vec<usize> {
+        let places = |model: &ModelData, top: &str| {
             let mut children: HashMap<Option<u32>, usize> = HashMap::new();
             let mut places: Vec<String> = Vec::new();
             for bone in &model.animation.skeleton.bones {
                 let number = children.entry(bone.parent).or_default();
-                let parent = bone.parent.map_or("", |parent| &places[parent as usize]);
+                let parent = bone.parent.map_or(top, |parent| &places[parent as usize]);
                 places.push(format!("{parent}/{number}"));
                 *number += 1;
             }
             places
         };
-        let after = places(self.after.model());
+        let after = places(self.after.model(), "");
         let known: HashMap<&String, usize> =
             after.iter().enumerate().map(|(at, place)| (place, at)).collect();
-        places(self.before.model()).iter().map(|place| known[place]).collect()
+        places(self.before.model(), top).iter().map(|place| known[place]).collect()
     }
 
     /// Returns the largest difference of a bone between both models at a time: of positions relative to `size`, of axes relative

@@ -4,9 +4,11 @@ use crate::round_trip::RoundTrip;
 use crate::support::{data, read_here};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{AssetError, AssetFs, Formats, ReadOptions};
-use dragonfly_fbx::{export_with, looks_like_fbx};
+use dragonfly_anim::frames::frame_rate;
+use dragonfly_fbx::{export_with, looks_like_fbx, preset};
 use dragonfly_kit::skip::models;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Largest difference between keys, relative to the size of a model.
 const BETWEEN_KEYS: f32 = 1e-3;
@@ -165,6 +167,47 @@ fn every_model_of_the_collection_is_read_again_as_it_was() {
     let Some(folder) = models() else { return };
     let count = compare_all(&folder);
     assert!(count >= 50, "only {count} models");
+}
+
+#[test]
+fn the_unreal_preset_keeps_the_origins_of_bones_in_every_frame() {
+    let mut compared = 0;
+    for folder in ["gltf", "collection", "fbx", "bvh"] {
+        for path in files(&data().join(folder)) {
+            let Some(model) = model(&path) else { continue };
+            let rest_is_sheared =
+                model.animation.skeleton.bones.iter().any(|bone| bone.rest_matrix.is_some());
+            if rest_is_sheared {
+                continue;
+            }
+            let mut trip = RoundTrip::of(model, preset("unreal"));
+            let size = trip.size();
+            let (bones, added) = trip.bones_below_root();
+            for take in 0..trip.before.model().animation.takes.len() {
+                let own = Arc::clone(&trip.before.model().animation.takes[take]);
+                let rate = match frame_rate(&own) {
+                    rate if rate < 24.0 => 2.0 * rate,
+                    rate => rate,
+                };
+                let last = (own.length * rate).floor();
+                for part in [0.0, 0.3, 0.5, 1.0] {
+                    let time = own.start + (last * part).round() / rate;
+                    trip.before.pose(Some(take), time);
+                    trip.after.pose(Some(take), time);
+                    for (bone, &after) in bones.iter().enumerate() {
+                        let (was, is) =
+                            (trip.before.to_root()[bone].w_axis, trip.after.to_root()[after].w_axis);
+                        let difference = was.distance(is) / size;
+                        let name = &trip.before.model().animation.skeleton.bones[bone].name;
+                        let place = format!("{}: {name} at {time} s of {}", path.display(), own.name);
+                        assert!(difference < 1e-3, "{place}: {was} and {is}, a root was added: {added}");
+                        compared += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 5_000, "only {compared}");
 }
 
 #[test]

@@ -58,6 +58,9 @@ def poses(objects):
     for stack in stacks:
         first, last = float("inf"), float("-inf")
         for one in objects:
+            # What an action does not move would keep the pose of the action before.
+            for bone in one.pose.bones if one.type == "ARMATURE" else []:
+                bone.matrix_basis.identity()
             named = [a for a in bpy.data.actions if a.name == f"{one.name}|{stack}"]
             if named:
                 one.animation_data_create()

@@ -23,23 +23,23 @@ pub fn is_requested(arguments: impl IntoIterator<Item = OsString>) -> bool {
 
 /// Serves one request: parses the file on the standard input and writes the answer to the standard output.
 pub fn serve() -> ExitCode {
-    serve_with(|_| None)
+    serve_with(|_, _| None)
 }
 
-/// Like [`serve`], and calls `inside` with the bytes of the file when the cage is closed; a code that it returns ends the
-/// child instead of an answer. For tests, which plant faults there.
-pub fn serve_with(inside: impl FnOnce(&[u8]) -> Option<ExitCode>) -> ExitCode {
+/// Like [`serve`], and calls `inside` with the bytes of the file, and the protections that are missing, when the cage is
+/// closed; a code that it returns ends the child instead of an answer. For tests, which plant faults there.
+pub fn serve_with(inside: impl FnOnce(&[u8], &[String]) -> Option<ExitCode>) -> ExitCode {
     run(inside).unwrap_or(ExitCode::from(3))
 }
 
-fn run(inside: impl FnOnce(&[u8]) -> Option<ExitCode>) -> io::Result<ExitCode> {
+fn run(inside: impl FnOnce(&[u8], &[String]) -> Option<ExitCode>) -> io::Result<ExitCode> {
     let mut input = io::stdin().lock();
     // The request comes from the parent, the bytes after it from anyone.
     let request = ParseRequest::read(&mut input)?;
     let cage: CageReport = cage::close(request.memory);
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
-    if let Some(code) = inside(&bytes) {
+    if let Some(code) = inside(&bytes, &cage.missing) {
         return Ok(code);
     }
     let options = ReadOptions {

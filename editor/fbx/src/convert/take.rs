@@ -158,7 +158,7 @@ impl StackReader<'_> {
             wanted.filter_map(|(_, curve)| *curve).filter(|curve| !curve.keyframes.is_empty()).collect()
         };
         use AnimatedPart::{Pose, Rotation, Scale, Translation};
-        // A node that the take does not move rests. `ufbx` 0.11.5 may evaluate it as that of another node.
+        // Parts that the take does not move rest: `ufbx` 0.11.5 may evaluate them as those of another node.
         let moves = |targets: &[AnimatedPart]| curves.iter().any(|(target, _)| targets.contains(target));
         let parts: &[AnimatedPart] =
             if pivots { &[Translation, Rotation, Scale, Pose] } else { &[Translation, Pose] };

@@ -5,7 +5,7 @@ use super::node::{FbxNode, setting};
 use super::preset::KeyStyle;
 use super::sample::{SampledValue, rotation, sample};
 use super::scene::{ObjectId, SceneWriter, ticks};
-use crate::fit::{FitKind, FittedKeys, KeyTime, fit};
+use crate::fit::{FitKind, FitValue, FittedKeys, KeyTime, fit};
 use dragonfly_anim::data::{Channel, Interpolation};
 use glam::{DQuat, DVec3, Quat, Vec3};
 use std::convert::Infallible;
@@ -15,6 +15,9 @@ const TOLERANCE_METERS: f64 = 1e-5;
 
 /// Largest angle between a motion and its keys: a hundredth of a degree, in radians.
 const TOLERANCE_ANGLE: f64 = 0.01 * std::f64::consts::PI / 180.0;
+
+/// Angle in radians up to which a line between two quaternions follows a rotation within 0.01°.
+const FAR: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
 /// Longest time in seconds for which a line replaces the jump at the end of a step.
 const JUMP: f64 = 1.0 / 2000.0;
@@ -140,6 +143,24 @@ pub(super) fn vector_keys(
     }
 }
 
+/// Returns times with more of them where a rotation is far: programs that read lines only interpolate quaternions, not angles.
+fn divided_turns(channel: &Channel<Quat>, times: &[KeyTime]) -> Vec<KeyTime> {
+    let smooth = matches!(channel.interpolation, Interpolation::Linear | Interpolation::CubicSpline);
+    let mut divided: Vec<KeyTime> = Vec::with_capacity(times.len());
+    for &time in times {
+        if let Some(&last) = divided.last().filter(|_| smooth) {
+            let at = |time: f64| rotation(channel, Quat::IDENTITY, time);
+            let pieces = (at(last.at).distance(&at(time.at)) / FAR).ceil().clamp(1.0, 64.0);
+            let inner =
+                (1..pieces as u32).map(|piece| last.at + (time.at - last.at) * f64::from(piece) / pieces);
+            let inner = inner.map(|at| KeyTime { at: f64::from(at as f32), key: at as f32 });
+            divided.extend(inner.filter(|inner| inner.key > last.key && inner.key < time.key));
+        }
+        divided.push(time);
+    }
+    divided
+}
+
 /// Returns the keys of rotations as angles in degrees.
 pub(super) fn rotation_keys(
     channel: &Channel<Quat>,
@@ -149,7 +170,10 @@ pub(super) fn rotation_keys(
     let numbers = |angles: &EulerAngles| angles.degrees().to_array().to_vec();
     let mut at =
         |at: f64| Ok::<_, Infallible>(Some(EulerAngles::of(convert(rotation(channel, Quat::IDENTITY, at)))));
-    let times = key_times(&channel.times);
+    let mut times = key_times(&channel.times);
+    if style == KeyStyle::Lines {
+        times = divided_turns(channel, &times);
+    }
     let kind = match (channel.interpolation, style) {
         (Interpolation::Step | Interpolation::Closest, _) => FitKind::Step,
         (Interpolation::Linear | Interpolation::CubicSpline, KeyStyle::Curves) => FitKind::Smooth,

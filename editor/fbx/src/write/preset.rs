@@ -1,4 +1,4 @@
-//! The expectations of other programs of a file: one row for each.
+//! Presets: the files that other programs expect, one row for each.
 
 use dragonfly_anim::format::UpAxis;
 

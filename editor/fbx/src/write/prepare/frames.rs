@@ -47,7 +47,7 @@ pub(in super::super) fn at_frames(
         takes.push(Arc::new(framed_take(take, skeleton, rate, &resting, is_scaled)?));
     }
     if is_scaled {
-        // The children of a bone get the scale that the bone loses.
+        // Meshes and skins get the scale that their bones lose.
         let scaled = bone_matrices(skeleton, &rest);
         let lost = |bone: u32| {
             let (now, before) = (globals.get(bone as usize)?, scaled.get(bone as usize)?);
@@ -143,17 +143,18 @@ fn framed_take(
         )));
     }
     let at = |frame: usize| f64::from(take.start) + frame as f64 / f64::from(rate);
+    // In single precision, as the times of keys: a step at a frame happens at that frame.
     let times: Arc<[f32]> = (0..frames).map(|frame| at(frame) as f32).collect();
     let mut columns: Vec<Vec<LocalPose>> = vec![Vec::with_capacity(frames); bones];
-    for frame in 0..frames {
+    for time in times.iter().map(|&time| f64::from(time)) {
         let mut row: Vec<LocalPose> = Vec::with_capacity(bones);
         for (index, bone) in skeleton.bones.iter().enumerate() {
             let nothing = Track::default();
             let track = take.tracks.get(index).unwrap_or(&nothing);
             row.push(LocalPose {
-                translation: vector(&track.translation, bone.rest.translation, at(frame)),
-                rotation: rotation(&track.rotation, bone.rest.rotation, at(frame)),
-                scale: vector(&track.scale, bone.rest.scale, at(frame)),
+                translation: vector(&track.translation, bone.rest.translation, time),
+                rotation: rotation(&track.rotation, bone.rest.rotation, time),
+                scale: vector(&track.scale, bone.rest.scale, time),
             });
         }
         let row = if is_scaled { unscaled(skeleton, &row).0 } else { row };

@@ -1,4 +1,4 @@
-//! Models as a preset requires them.
+//! Changes of a model before it is written with a preset.
 
 mod bind_pose;
 mod frames;
