@@ -8,7 +8,7 @@ use dragonfly_anim::data::{Avatar, ExpressionBind, HumanBone, ModelData};
 use dragonfly_anim::format::{EditedTake, Formats, Imported, NoFiles, ReadOptions, gltf, read};
 use dragonfly_anim::retarget::BindingGuess;
 use dragonfly_anim::root_bone::with_root_bone;
-use dragonfly_kit::mutate::Mutator;
+use dragonfly_kit::mutate::{Mutator, mutants};
 use dragonfly_kit::random::seed;
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
@@ -161,7 +161,7 @@ fn no_damaged_vrm_panics() {
     println!("DRAGONFLY_SEED={first}");
     let files: Vec<Vec<u8>> = [vrm_0(), vrm_1()].map(|fixture| fixture.json.to_string().into_bytes()).into();
     let mut mutator = Mutator::new(first, &[b"{}", b"[]", b"null", b"-1", b"\"node\":3,", b"99999999999"]);
-    for _ in 0..1_500 {
+    for _ in 0..mutants() {
         let file = glb(&mutator.mutant(&files), Some(&vrm_0().bin));
         if let Ok(imported) = read("a.vrm", &file, &NoFiles, &ReadOptions::default()) {
             assert_eq!(faults(&imported.model), [""; 0]);

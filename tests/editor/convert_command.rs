@@ -3,6 +3,8 @@
 use crate::program::run;
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_kit::skip::{TestNeed, skip};
+#[cfg(unix)]
+use dragonfly_kit::slurm::SlurmCluster;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -119,10 +121,14 @@ fn orders_that_cannot_be_right_are_errors_of_the_input_and_write_nothing() {
 
 /// Runs a command of another program in `folder`, with our program in its path. `None` where the other one is not there.
 fn other(program: &str, arguments: &[&str], folder: &Path) -> Option<std::process::Output> {
-    let own = Path::new(env!("CARGO_BIN_EXE_dragonfly")).parent().expect("a folder");
-    let path = format!("{}:{}", own.display(), std::env::var("PATH").unwrap_or_default());
     let mut command = std::process::Command::new(program);
-    command.args(arguments).current_dir(folder).env("PATH", path).output().ok()
+    command.args(arguments).current_dir(folder).env("PATH", path_with_program()).output().ok()
+}
+
+/// Returns the value of `PATH` with which our program is found.
+fn path_with_program() -> String {
+    let own = Path::new(env!("CARGO_BIN_EXE_dragonfly")).parent().expect("a folder");
+    format!("{}:{}", own.display(), std::env::var("PATH").unwrap_or_default())
 }
 
 #[test]
@@ -137,6 +143,31 @@ fn the_parts_of_an_array_job_convert_each_file_once() {
         assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     }
     assert_eq!(files_below(&folder.join("out")), outputs.into_iter().map(str::to_owned).collect());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_cluster_of_slurm_runs_the_parts_of_an_array_job_and_later_only_what_is_missing() {
+    let Some(cluster) = SlurmCluster::start() else { return };
+    let (folder, outputs) = collection("convert-cluster");
+    let outputs: BTreeSet<String> = outputs.into_iter().map(str::to_owned).collect();
+    let order = ["convert", "in", "-o", "out", "--to", "dfm", "--job", "slurm", "--parts", "3"];
+    fs::write(folder.join("job.sh"), run(order).expect(0).text()).expect("a file");
+    let submit = || {
+        let mut command = cluster.command("sbatch");
+        command.args(["--wait", "--output=log-%a.txt", "job.sh"]).current_dir(folder.path());
+        let done = command.env("PATH", path_with_program()).output().expect("sbatch");
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        assert_eq!(files_below(&folder.join("out")), outputs);
+        let log = |part: u32| fs::read_to_string(folder.join(&format!("log-{part}.txt"))).expect("a log");
+        [1, 2, 3].map(log).join("")
+    };
+    // A line for each file that is written.
+    assert_eq!(submit().matches(" bytes)\n").count(), outputs.len());
+    fs::remove_file(folder.join("out/Fox.dfm")).expect("an output");
+    let again = submit();
+    assert_eq!(again.matches(" bytes)\n").count(), 1, "{again}");
+    assert!(again.contains("Fox.glb → out/Fox.dfm ("), "{again}");
 }
 
 #[test]

@@ -16,6 +16,8 @@ pub mod power;
 pub mod process;
 pub mod random;
 pub mod skip;
+#[cfg(unix)]
+pub mod slurm;
 pub mod writer;
 
 #[cfg(feature = "document")]

@@ -1,5 +1,6 @@
 //! Mutation of files for fuzz tests: valid files with random changes that no program would write.
 
+use crate::folder::takes_long;
 use crate::random::Random;
 
 /// Numbers at which size arithmetic or float code often fails.
@@ -24,6 +25,11 @@ const SPECIALS: [u32; 18] = [
     0x0000_0001,
     0xbf80_0000,
 ];
+
+/// Returns the number of mutants of one format that a test tries: 20,000, or two million in the long variant.
+pub fn mutants() -> usize {
+    if takes_long() { 2_000_000 } else { 20_000 }
+}
 
 /// Returns mutants of files: a few random changes each, all derived from one seed.
 pub struct Mutator<'a> {

@@ -25,7 +25,7 @@ pub enum TestNeed {
     FileSystem,
     /// A program: python3.
     Program,
-    /// A program that runs jobs of farms: openjd.
+    /// Programs that run jobs of farms: openjd, Slurm.
     Farm,
     /// A signal that the caller of the tests does not ignore.
     Signal,
