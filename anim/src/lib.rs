@@ -143,6 +143,9 @@ pub mod root_bone;
 pub mod sample;
 #[doc(alias("skinning"))]
 pub mod skin;
+#[cfg(feature = "stage")]
+#[doc(alias("sequencer", "timeline", "SMIL", "screenplay"))]
+pub mod stage;
 #[doc(alias("trigonometry", "axis-angle"))]
 #[doc(alias("handle", "Catmull-Rom", "auto clamped"))]
 pub mod tangents;
