@@ -66,6 +66,7 @@
 //! | root motion; a root bone for it | [`motion`], [`root_bone`] |
 //! | contacts of feet; loops; defects of a take; a take at its frames | [`contact`], [`loops`], [`lint`], [`frames`] |
 //! | play a take on another skeleton | [`retarget`] |
+//! | scenes of several characters, driven by a script in XML | `stage` (feature `stage`) |
 //! | change many keys by the same offset, with falloff | [`offset`] |
 //! | remove redundant keys | [`reduce`] |
 //! | in-betweens: blend keys with their neighbors, smooth curves | [`inbetween`] |

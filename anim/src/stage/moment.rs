@@ -4,7 +4,7 @@ use crate::stage::time::{StageRate, StageTime, parse_time};
 
 /// A value of `begin` or `end` as it is written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Moment {
+pub enum MomentText {
     /// A time after the usual begin.
     Offset(StageTime),
     /// A moment of another action, such as `grab.touch-0.5`.
@@ -18,7 +18,7 @@ pub enum Moment {
     },
 }
 
-impl Moment {
+impl MomentText {
     /// Reads a moment: a time, or `ID.POINT` with `+TIME` or `-TIME` after it or not. `None` for anything else.
     ///
     /// In the name of a point a `-` is only before a letter, so that in `anna-hit.end-0.5` the last one is a minus.
@@ -48,7 +48,7 @@ pub fn is_name(text: &str) -> bool {
 }
 
 /// Returns whether `text` is a name for a moment: as [`is_name`], but `-` is only before a letter, so that in `grab.touch-0.5` it is a minus.
-pub fn is_moment_name(text: &str) -> bool {
+pub(super) fn is_moment_name(text: &str) -> bool {
     !text.is_empty() && point_length(text) == text.len()
 }
 

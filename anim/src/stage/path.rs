@@ -52,7 +52,10 @@ impl StagePath {
     /// Returns the point after `distance` meters, clamped to the path.
     pub fn at(&self, distance: f64) -> PathSpot {
         if self.points.len() < 2 {
-            return PathSpot { position: self.points.first().copied().unwrap_or(DVec3::ZERO), direction: DVec3::ZERO };
+            return PathSpot {
+                position: self.points.first().copied().unwrap_or(DVec3::ZERO),
+                direction: DVec3::ZERO,
+            };
         }
         let distance = distance.clamp(0.0, self.length());
         let last = self.lengths.len() - 2;
@@ -82,16 +85,23 @@ impl StagePath {
         }
         let (leave, arrive) = self.slopes(part);
         let (x2, x3) = (x * x, x * x * x);
-        a * (2.0 * x3 - 3.0 * x2 + 1.0) + leave * (x3 - 2.0 * x2 + x) + b * (3.0 * x2 - 2.0 * x3) + arrive * (x3 - x2)
+        a * (2.0 * x3 - 3.0 * x2 + 1.0)
+            + leave * (x3 - 2.0 * x2 + x)
+            + b * (3.0 * x2 - 2.0 * x3)
+            + arrive * (x3 - x2)
     }
 
     fn slope(&self, part: usize, x: f64) -> DVec3 {
-        let Some(&[a, b]) = self.points.get(part..).and_then(<[DVec3]>::first_chunk) else { return DVec3::ZERO };
+        let Some(&[a, b]) = self.points.get(part..).and_then(<[DVec3]>::first_chunk) else {
+            return DVec3::ZERO;
+        };
         if !self.is_smooth {
             return b - a;
         }
         let (leave, arrive) = self.slopes(part);
-        (b - a) * (6.0 * x * (1.0 - x)) + leave * (3.0 * x * x - 4.0 * x + 1.0) + arrive * (3.0 * x * x - 2.0 * x)
+        (b - a) * (6.0 * x * (1.0 - x))
+            + leave * (3.0 * x * x - 4.0 * x + 1.0)
+            + arrive * (3.0 * x * x - 2.0 * x)
     }
 
     /// Returns the slopes at both ends of a part.

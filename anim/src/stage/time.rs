@@ -51,7 +51,11 @@ impl StageTime {
     /// Returns the time divided by the magnitude of `divisor`, rounded and limited as [`Self::times`]; zero for the divisor 0.
     pub fn over(self, divisor: Decimal) -> Self {
         let by = i128::from(divisor.digits).abs();
-        if by == 0 { Self::ZERO } else { Self::divided(i128::from(self.0) * Decimal::power(divisor.scale), by) }
+        if by == 0 {
+            Self::ZERO
+        } else {
+            Self::divided(i128::from(self.0) * Decimal::power(divisor.scale), by)
+        }
     }
 
     /// Returns `numerator / denominator` ticks, rounded half away from zero; the denominator is positive.

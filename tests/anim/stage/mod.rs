@@ -1,11 +1,17 @@
 //! Scripts, their schedules, and scenes at a time.
 
+mod actors;
 mod errors;
+mod feet;
+mod live;
 mod oracle;
+mod pure;
 mod random_scripts;
+mod scenes;
 mod schema;
 mod spans;
 mod times;
+mod travels;
 
 use dragonfly_anim::stage::schedule::{Schedule, resolve};
 use dragonfly_anim::stage::script::{ScriptError, StageScript};
@@ -39,8 +45,12 @@ fn lengths(script: &StageScript) -> Vec<StageTime> {
                 (to - from) / number("speed").unwrap_or(1.0).abs()
             }
             "move" => {
-                let speed = number("speed").unwrap_or_else(|| take(element.value("take").unwrap()).1);
-                let path = element.value("path").and_then(|path| script.things().find(|thing| thing.value("id") == Some(path)));
+                // A duration stands for a speed.
+                let speed =
+                    number("speed").unwrap_or_else(|| element.value("take").map_or(1.0, |name| take(name).1));
+                let path = element
+                    .value("path")
+                    .and_then(|path| script.things().find(|thing| thing.value("id") == Some(path)));
                 path.map_or(4.0, |path| path.value("points").map_or(6.0, way)) / speed
             }
             _ => 0.0,
@@ -53,7 +63,10 @@ fn lengths(script: &StageScript) -> Vec<StageTime> {
 fn way(points: &str) -> f64 {
     let numbers: Vec<f64> = points.split_whitespace().map(|number| number.parse().unwrap()).collect();
     let points: Vec<&[f64]> = numbers.chunks(3).collect();
-    points.windows(2).map(|pair| pair[0].iter().zip(pair[1]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()).sum()
+    points
+        .windows(2)
+        .map(|pair| pair[0].iter().zip(pair[1]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt())
+        .sum()
 }
 
 fn read(text: &str) -> StageScript {

@@ -14,7 +14,8 @@ pub(super) fn times(text: &str) -> Option<Vec<(f64, f64)>> {
 }
 
 fn is_action(node: Node) -> bool {
-    !matches!(node.tag_name().name(), "cast" | "at") && node.parent_element().is_none_or(|parent| parent.tag_name().name() != "cast")
+    !matches!(node.tag_name().name(), "cast" | "at")
+        && node.parent_element().is_none_or(|parent| parent.tag_name().name() != "cast")
 }
 
 fn actions<'a>(node: Node<'a, 'a>) -> Vec<Node<'a, 'a>> {
@@ -44,7 +45,12 @@ struct Oracle<'a> {
 
 impl<'a> Oracle<'a> {
     /// Computes once, and returns `None` where the same time is being computed already.
-    fn once(&mut self, node: Node<'a, 'a>, is_end: bool, compute: fn(&mut Self, Node<'a, 'a>) -> Option<f64>) -> Option<f64> {
+    fn once(
+        &mut self,
+        node: Node<'a, 'a>,
+        is_end: bool,
+        compute: fn(&mut Self, Node<'a, 'a>) -> Option<f64>,
+    ) -> Option<f64> {
         let key = (node.id(), is_end);
         if let Some(&time) = self.memo.get(&key) {
             return Some(time);
@@ -85,7 +91,8 @@ impl<'a> Oracle<'a> {
         let sign = rest.find(['+', '-']).unwrap_or(rest.len());
         let (point, offset) = rest.split_at(sign);
         let other = self.named(node, id);
-        let offset = if offset.is_empty() { 0.0 } else { seconds(offset.strip_prefix('+').unwrap_or(offset)) };
+        let offset =
+            if offset.is_empty() { 0.0 } else { seconds(offset.strip_prefix('+').unwrap_or(offset)) };
         let time = match point {
             "begin" => self.begin(other)?,
             "end" => self.end(other)?,
@@ -136,7 +143,8 @@ impl<'a> Oracle<'a> {
             }
             let siblings = actions(node.parent_element().unwrap());
             let next = siblings.iter().position(|other| *other == node).and_then(|at| siblings.get(at + 1));
-            let next = next.filter(|next| name(node.parent_element().unwrap()) == "seq" && next.has_attribute("begin"));
+            let next = next
+                .filter(|next| name(node.parent_element().unwrap()) == "seq" && next.has_attribute("begin"));
             return match next {
                 Some(next) => self.begin(*next),
                 None => self.end(above),
@@ -157,7 +165,8 @@ impl<'a> Oracle<'a> {
 
     /// Returns the begin of the shot that follows in time, or in the text where two begin together.
     fn next_shot(&mut self, node: Node<'a, 'a>, begin: f64) -> Option<Option<f64>> {
-        let shots: Vec<Node> = self.document.descendants().filter(|other| other.has_tag_name("shot")).collect();
+        let shots: Vec<Node> =
+            self.document.descendants().filter(|other| other.has_tag_name("shot")).collect();
         let own = shots.iter().position(|other| *other == node).unwrap();
         let mut next: Option<f64> = None;
         for (at, shot) in shots.into_iter().enumerate() {

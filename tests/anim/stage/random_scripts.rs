@@ -78,7 +78,16 @@ impl Writer {
         if id % 3 == 0 {
             let take = self.random.choice(&["Walk", "Run", "PickUp", "Slash", "Idle", "Fall"]);
             let _ = write!(self.text, "<play who=\"anna\" take=\"{take}\"");
-            let extra = self.random.choice(&["", "", "", " repeat=\"fill\"", " repeat=\"2.5\"", " speed=\"-0.5\"", " speed=\"2\" from=\"0.25\"", " to=\"0.5\""]);
+            let extra = self.random.choice(&[
+                "",
+                "",
+                "",
+                " repeat=\"fill\"",
+                " repeat=\"2.5\"",
+                " speed=\"-0.5\"",
+                " speed=\"2\" from=\"0.25\"",
+                " to=\"0.5\"",
+            ]);
             self.text.push_str(extra);
             self.timing(has_prev, id);
             let _ = write!(self.text, "><at name=\"touch\" time=\"0.4\"/></play>");
@@ -87,9 +96,15 @@ impl Writer {
         let containers = if depth > 0 { 3 } else { 0 };
         let kind = self.random.below(9 + 2 * containers);
         let simple = [
-            "wait", "look who=\"anna\" at=\"ben\"", "shot who=\"wide\"", "run who=\"rain\"", "title text=\"x\"",
-            "move who=\"ben\" path=\"aisle\" take=\"Walk\"", "move who=\"ben\" to=\"door\" speed=\"1.5\" take=\"Run\"",
-            "turn who=\"ben\" to=\"90\"", "sound src=\"a.ogg\"",
+            "wait",
+            "look who=\"anna\" at=\"ben\"",
+            "shot who=\"wide\"",
+            "run who=\"rain\"",
+            "title text=\"x\"",
+            "move who=\"ben\" path=\"aisle\" take=\"Walk\"",
+            "move who=\"ben\" to=\"door\" speed=\"1.5\" take=\"Run\"",
+            "turn who=\"ben\" to=\"90\"",
+            "sound src=\"a.ogg\"",
         ];
         if let Some(simple) = simple.get(kind) {
             let _ = write!(self.text, "<{simple}");
@@ -115,7 +130,8 @@ fn script(seed: u64) -> String {
     let mut known = 0;
     // The number of actions does not depend on the references, so a second pass can refer to all of them.
     loop {
-        let mut writer = Writer { random: Random::new(seed), text: String::new(), ids: 0, known, around: Vec::new() };
+        let mut writer =
+            Writer { random: Random::new(seed), text: String::new(), ids: 0, known, around: Vec::new() };
         for at in 0..1 + writer.random.below(5) {
             writer.action(3, at > 0);
         }
@@ -144,7 +160,11 @@ fn ten_thousand_random_scripts_have_the_times_of_the_oracle() {
                     let (begin, end) = (times.begin.seconds(), times.end.seconds());
                     let near = (begin - expected.0).abs() < 1e-6 && (end - expected.1).abs() < 1e-6;
                     let title = script.element(index).row.name;
-                    assert!(near, "seed {}: <{title}> {index}: {begin} {end} instead of {expected:?}\n{text}", at - 1);
+                    assert!(
+                        near,
+                        "seed {}: <{title}> {index}: {begin} {end} instead of {expected:?}\n{text}",
+                        at - 1
+                    );
                     passive += usize::from(script.actions()[index].passive);
                 }
                 actions += schedule.times().len();
@@ -160,7 +180,9 @@ fn ten_thousand_random_scripts_have_the_times_of_the_oracle() {
             }
         }
     }
-    println!("{resolved} resolved with {actions} actions ({passive} passive), {cycles} cycles, seeds to {at}");
+    println!(
+        "{resolved} resolved with {actions} actions ({passive} passive), {cycles} cycles, seeds to {at}"
+    );
     assert!(resolved > 2_000 && cycles > 1_000 && actions > 20_000 && passive > 2_000);
 }
 
@@ -170,9 +192,16 @@ fn large(count: usize) -> String {
     for row in 0..100 {
         let _ = write!(text, "<seq id=\"s{row}\">");
         for at in 0..count / 100 - 1 {
-            let begin = if row > 0 && at % 7 == 0 { format!(" begin=\"p{}-{at}.begin+0.1\"", row - 1) } else { String::new() };
+            let begin = if row > 0 && at % 7 == 0 {
+                format!(" begin=\"p{}-{at}.begin+0.1\"", row - 1)
+            } else {
+                String::new()
+            };
             let begin = begin.replace('-', "x");
-            let _ = writeln!(text, "<play id=\"p{row}x{at}\" who=\"anna\" take=\"Walk\"{begin} fade-in=\"0.2\"/>");
+            let _ = writeln!(
+                text,
+                "<play id=\"p{row}x{at}\" who=\"anna\" take=\"Walk\"{begin} fade-in=\"0.2\"/>"
+            );
         }
         text.push_str("</seq>");
     }

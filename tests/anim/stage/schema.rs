@@ -33,13 +33,16 @@ fn an_independent_validator_accepts_every_example_and_refuses_what_we_refuse() {
     for entry in std::fs::read_dir(data).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "xml") {
-            let (valid, message) = is_valid(&folder, "example.xml", &std::fs::read_to_string(&path).unwrap()).unwrap();
+            let (valid, message) =
+                is_valid(&folder, "example.xml", &std::fs::read_to_string(&path).unwrap()).unwrap();
             assert!(valid, "{}: {message}", path.display());
             examples += 1;
         }
     }
     assert!(examples >= 1);
-    let foreign = DUEL.replace("<script ", "<script xmlns:x=\"urn:x\" x:y=\"1\" ").replace("<par id", "<x:a><x:b c=\"d\"/></x:a><par id");
+    let foreign = DUEL
+        .replace("<script ", "<script xmlns:x=\"urn:x\" x:y=\"1\" ")
+        .replace("<par id", "<x:a><x:b c=\"d\"/></x:a><par id");
     assert!(is_valid(&folder, "foreign.xml", &foreign).unwrap().0);
     for (from, to) in [
         ("take=\"Slash\"", "tak=\"Slash\""),
@@ -69,8 +72,13 @@ fn every_element_and_attribute_is_in_the_schema_with_its_help() {
     for row in ELEMENTS {
         assert!(schema.contains(&format!("<element name=\"{}\">", row.name)), "{}", row.name);
         for attribute in row.rows() {
-            assert!(schema.contains(&format!("<attribute name=\"{}\"", attribute.name)), "{}", attribute.name);
-            let usable = attribute.default.is_empty() || attribute.value.accepts(attribute.default, Default::default());
+            assert!(
+                schema.contains(&format!("<attribute name=\"{}\"", attribute.name)),
+                "{}",
+                attribute.name
+            );
+            let usable = attribute.default.is_empty()
+                || attribute.value.accepts(attribute.default, Default::default());
             assert!(usable, "the default of {} {}", row.name, attribute.name);
             assert!(attribute.help.ends_with('.') && row.help.ends_with('.'), "{}", attribute.name);
         }

@@ -19,7 +19,7 @@ fn every_range_of_the_tree_is_what_it_says() {
             attributes += 1;
         }
     }
-    assert_eq!((script.tree().elements().len(), attributes), (40, 137));
+    assert_eq!((script.tree().elements().len(), attributes), (37, 132));
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn the_element_at_a_byte_is_the_innermost_one() {
     let at = DUEL.find("touch\" time").unwrap();
     let element = script.tree().element_at(at).unwrap();
     assert_eq!(script.tree().elements()[element].row.name, "at");
-    assert_eq!(script.tree().place(at).to_string(), "31:21");
+    assert_eq!(script.tree().place(at).to_string(), "29:21");
     assert_eq!(script.tree().element_at(0), None);
 }
 

@@ -12,21 +12,31 @@ fn near(found: (f64, f64), expected: (f64, f64)) {
 
 #[test]
 fn frames_of_the_usual_rates_and_decimals_are_exact() {
-    for (frames, seconds) in [(24, 1), (25, 1), (30, 1), (48, 1), (60, 1), (24_000, 1001), (30_000, 1001), (60_000, 1001)] {
+    for (frames, seconds) in
+        [(24, 1), (25, 1), (30, 1), (48, 1), (60, 1), (24_000, 1001), (30_000, 1001), (60_000, 1001)]
+    {
         let rate = StageRate::new(frames, seconds).unwrap();
         let frame = rate.frame(1).ticks();
-        assert_eq!(i128::from(frame) * i128::from(frames), i128::from(TICKS_PER_SECOND) * i128::from(seconds));
+        assert_eq!(
+            i128::from(frame) * i128::from(frames),
+            i128::from(TICKS_PER_SECOND) * i128::from(seconds)
+        );
         // The sum of frames is the time of their number.
         assert_eq!(rate.frame(86_399).ticks(), frame * 86_399);
     }
     let rate = StageRate::default();
     let ticks = |text: &str| parse_time(text, rate).map(StageTime::ticks);
     let second = Some(TICKS_PER_SECOND);
-    assert_eq!([ticks("1"), ticks("1s"), ticks("1000ms"), ticks("24f"), ticks("0:01"), ticks("01.000")], [second; 6]);
+    assert_eq!(
+        [ticks("1"), ticks("1s"), ticks("1000ms"), ticks("24f"), ticks("0:01"), ticks("01.000")],
+        [second; 6]
+    );
     assert_eq!(ticks("1:05.5"), Some(TICKS_PER_SECOND * 131 / 2));
     assert_eq!(ticks("-0:00.5"), Some(-TICKS_PER_SECOND / 2));
     assert_eq!(ticks("0.00001"), Some(7056));
-    for wrong in ["", ".", "s", "1 s", "1,5", "1e3", "--1", "1:5", "1:60", "90000", "1:2:3", "inf", "NaN", "٣"] {
+    for wrong in
+        ["", ".", "s", "1 s", "1,5", "1e3", "--1", "1:5", "1:60", "90000", "1:2:3", "inf", "NaN", "٣"]
+    {
         assert_eq!(ticks(wrong), None, "{wrong}");
     }
 }
@@ -58,7 +68,9 @@ fn the_scene_of_the_reference_has_the_times_of_the_prototype() {
         .filter(|&action| script.element(action).row.name == "shot")
         .map(|action| (schedule.times()[action].begin.seconds(), schedule.times()[action].end.seconds()))
         .collect();
-    for (found, expected) in shots.into_iter().zip([(0.0, 2.678_834), (2.678_834, 4.728_834), (4.728_834, 7.828_834)]) {
+    for (found, expected) in
+        shots.into_iter().zip([(0.0, 2.678_834), (2.678_834, 4.728_834), (4.728_834, 7.828_834)])
+    {
         near(found, expected);
     }
     assert!(schedule.notes().is_empty());
@@ -124,7 +136,10 @@ fn an_end_before_its_begin_takes_no_time_and_is_noted() {
     let (script, schedule) = scheduled(&text);
     let times = schedule.times()[script.action_called("b").unwrap()];
     assert_eq!((times.begin.seconds(), times.end.seconds(), times.stop.seconds()), (2.0, 2.0, 2.0));
-    assert_eq!(told(schedule.notes()), "scene.xml:3:51: this end is 1.000 s before the begin, so <wait> takes no time");
+    assert_eq!(
+        told(schedule.notes()),
+        "scene.xml:3:51: this end is 1.000 s before the begin, so <wait> takes no time"
+    );
 }
 
 #[test]
@@ -143,7 +158,9 @@ fn a_cycle_names_every_action_in_it_with_its_line() {
 
 #[test]
 fn the_usual_cycle_is_explained() {
-    let text = scene("<seq><play who=\"anna\" take=\"Idle\" repeat=\"fill\"/>\n<play who=\"anna\" take=\"Slash\"/></seq>");
+    let text = scene(
+        "<seq><play who=\"anna\" take=\"Idle\" repeat=\"fill\"/>\n<play who=\"anna\" take=\"Slash\"/></seq>",
+    );
     let script = StageScript::read(text).unwrap();
     let errors = resolve(&script, &[]).unwrap_err();
     assert_eq!(errors[0].place.line, 4);

@@ -1,6 +1,6 @@
 //! When the feet of a take are on the ground, and where they are then.
 
-use super::StageFoot;
+use super::foot::StageFoot;
 use super::stride::{MEASURE_RATE, Stride};
 use crate::animation::to_root;
 use crate::contact::{ContactThresholds, detect_contacts};
@@ -93,7 +93,13 @@ struct FootPose<'a> {
 impl<'a> FootPose<'a> {
     fn new(skeleton: &'a Skeleton, take: &'a Take, length: StageTime) -> Self {
         let bones = skeleton.len();
-        Self { skeleton, take, length, poses: vec![Transform::IDENTITY; bones], matrices: vec![Mat4::IDENTITY; bones] }
+        Self {
+            skeleton,
+            take,
+            length,
+            poses: vec![Transform::IDENTITY; bones],
+            matrices: vec![Mat4::IDENTITY; bones],
+        }
     }
 
     /// Returns the position of a bone at a time after the start, of a take that repeats.

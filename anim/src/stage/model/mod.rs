@@ -1,10 +1,12 @@
 //! Models prepared for the stage: once a model, shared by all scripts and threads.
 
 mod contacts;
+mod foot;
 mod stride;
 mod take;
 
 pub use contacts::FootContact;
+pub use foot::StageFoot;
 pub use take::StageTake;
 
 use crate::contact::{feet_by_name, limb_of};
@@ -14,14 +16,6 @@ use crate::retarget::normalized_name;
 use crate::sample::rest_pose;
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
-
-/// A foot: the limb whose end it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StageFoot {
-    /// The bone.
-    pub bone: BoneIndex,
-    pub(in crate::stage) limb: FastTwoBone,
-}
 
 /// A model with everything that the stage needs of it.
 #[derive(Clone, Debug)]
@@ -51,7 +45,8 @@ impl StageModel {
             .collect();
         let rest = rest_matrices(skeleton);
         let leg = leg_length(&feet, &rest);
-        let takes = model.animation.takes.iter().map(|take| StageTake::new(skeleton, take, &feet, leg)).collect();
+        let takes =
+            model.animation.takes.iter().map(|take| StageTake::new(skeleton, take, &feet, leg)).collect();
         let rest_rotations = rest.iter().map(|matrix| matrix.to_scale_rotation_translation().1).collect();
         let head = skeleton.bones.iter().position(|bone| normalized_name(&bone.name) == "head");
         let rig = Rig::new(skeleton);
@@ -104,7 +99,8 @@ impl StageModel {
 fn rest_matrices(skeleton: &Skeleton) -> Vec<Mat4> {
     let mut matrices: Vec<Mat4> = Vec::with_capacity(skeleton.len());
     for bone in &skeleton.bones {
-        let parent = bone.parent.and_then(|parent| matrices.get(parent as usize)).copied().unwrap_or(Mat4::IDENTITY);
+        let parent =
+            bone.parent.and_then(|parent| matrices.get(parent as usize)).copied().unwrap_or(Mat4::IDENTITY);
         let matrix = parent * rest_pose(bone).to_matrix();
         matrices.push(if matrix.is_finite() { matrix } else { parent });
     }

@@ -1,7 +1,7 @@
 //! A take prepared for the stage: in place, with its travel, its stride and the contacts of its feet.
 
-use super::StageFoot;
 use super::contacts::{FootContact, foot_contacts};
+use super::foot::StageFoot;
 use super::stride::{Stride, stride_of};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Transform};
 use crate::fast::KeyedTake;
@@ -45,7 +45,8 @@ impl StageTake {
             (None, Some(stride)) => put_back(take, skeleton, &stride.motion(hips(skeleton), take)).ok(),
             (Some(_), _) | (None, None) => None,
         };
-        let contacts = foot_contacts(skeleton, moving.as_ref().unwrap_or(take), &in_place, feet, leg, stride.as_ref());
+        let contacts =
+            foot_contacts(skeleton, moving.as_ref().unwrap_or(take), &in_place, feet, leg, stride.as_ref());
         Self {
             name: take.name.clone(),
             start: take.start,
@@ -122,18 +123,24 @@ fn traveled(skeleton: &Skeleton, take: &Take, leg: f32) -> Option<(RootMotion, T
         return None;
     }
     // A root bone that has the movement is smoother than the hips.
-    let root = guess_root(skeleton, hips)
-        .filter(|&root| moved(root).is_some_and(|(far, _)| far > 0.5 * distance && far >= LEAST_TRAVEL * leg));
+    let root = guess_root(skeleton, hips).filter(|&root| {
+        moved(root).is_some_and(|(far, _)| far > 0.5 * distance && far >= LEAST_TRAVEL * leg)
+    });
     extract(take, skeleton, root.unwrap_or(hips), RootMotionOptions { yaw, ..both }).ok()
 }
 
 impl Stride {
-    /// Returns the movement of a take that walks on the spot: straight, at the speed of its stride.
+    /// Returns the movement of a take that walks on the spot.
     fn motion(&self, bone: BoneIndex, take: &Take) -> RootMotion {
-        let end = (self.direction * self.distance).as_vec3();
+        let way = (self.direction * self.distance).as_vec3();
+        let last = (self.shares.len().max(2) - 1) as f64;
+        let share = |at: usize| (at as f64 / last, self.share(at as f64 / last));
+        let keys = (0..=last as usize).map(share);
+        let (times, values): (Vec<f32>, Vec<Vec3>) =
+            keys.map(|(x, share)| (take.start + take.length * x as f32, way * share as f32)).unzip();
         RootMotion {
             bone,
-            translation: Channel::new([take.start, take.end()], [Vec3::ZERO, end], Interpolation::Linear),
+            translation: Channel::new(times, values, Interpolation::Linear),
             start: take.start,
             length: take.length,
             ..RootMotion::default()

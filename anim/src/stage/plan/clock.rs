@@ -4,7 +4,7 @@ use super::placement::Placement;
 use crate::data::Transform;
 use crate::sample::PlayMode;
 use crate::stage::model::StageTake;
-use crate::stage::script::RepeatCount;
+use crate::stage::script::StageRepeat;
 use crate::stage::time::{Decimal, StageTime};
 
 /// The part of a take that an action plays, how fast and how often.
@@ -15,7 +15,7 @@ pub(super) struct PlayClock {
     /// Factor of the speed, not 0.
     pub(super) speed: Decimal,
     /// How often.
-    pub(super) repeat: RepeatCount,
+    pub(super) repeat: StageRepeat,
     /// Duration of one repetition.
     pub(super) once: StageTime,
 }
@@ -31,10 +31,10 @@ impl PlayClock {
             return (0, StageTime::ZERO);
         }
         let (played, is_over) = match self.repeat {
-            RepeatCount::Times(times) if after >= self.once.times(times) => {
+            StageRepeat::Times(times) if after >= self.once.times(times) => {
                 (StageTime::from_ticks(length).times(times), true)
             }
-            RepeatCount::Times(_) | RepeatCount::Fill => {
+            StageRepeat::Times(_) | StageRepeat::Fill => {
                 let played = after.times(self.speed);
                 (if played < StageTime::ZERO { -played } else { played }, false)
             }
@@ -59,9 +59,8 @@ impl PlayClock {
         let (loops, rest) = self.split(after);
         let [first, last] = if self.speed.is_negative() { [self.part[1], self.part[0]] } else { self.part };
         let now = if self.speed.is_negative() { first - rest } else { first + rest };
-        let between = |to: StageTime| {
-            placement_of(motion.delta(take.clock(first), take.clock(to), PlayMode::Clamp))
-        };
+        let between =
+            |to: StageTime| placement_of(motion.delta(take.clock(first), take.clock(to), PlayMode::Clamp));
         between(last).repeated(loops).then(&between(now))
     }
 }
@@ -69,5 +68,8 @@ impl PlayClock {
 /// Returns the part of a transform on the ground.
 fn placement_of(transform: Transform) -> Placement {
     let rotation = transform.rotation.as_dquat();
-    Placement { position: transform.translation.as_dvec3(), facing: 2.0 * libm::atan2(rotation.y, rotation.w) }
+    Placement {
+        position: transform.translation.as_dvec3(),
+        facing: 2.0 * libm::atan2(rotation.y, rotation.w),
+    }
 }

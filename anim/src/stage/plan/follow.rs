@@ -43,7 +43,13 @@ impl PathStride {
         let own = model.takes().get(take)?;
         let stride = own.stride().filter(|_| own.length() > StageTime::ZERO)?;
         let cycle = stride.distance * scale;
-        (cycle > 1e-6).then(|| Self { model: Arc::clone(model), take, scale, cycle, direction: stride.direction })
+        (cycle > 1e-6).then(|| Self {
+            model: Arc::clone(model),
+            take,
+            scale,
+            cycle,
+            direction: stride.direction,
+        })
     }
 
     pub(super) fn take(&self) -> &StageTake {
@@ -59,7 +65,8 @@ impl PathStride {
     fn within(&self, time: f64) -> (f64, DVec3) {
         let take = self.take();
         if !take.travels() {
-            return (self.cycle * (time / self.seconds()), DVec3::ZERO);
+            let share = take.stride().map_or(0.0, |stride| stride.share(time / self.seconds()));
+            return (self.cycle * share, DVec3::ZERO);
         }
         let moved = take.movement(StageTime::from_seconds(time)).translation.as_dvec3() * self.scale;
         let along = moved.dot(self.direction);
@@ -139,10 +146,12 @@ impl PathFollower {
             None => (progress * self.distance, DVec3::ZERO, 0.0),
         };
         let length = self.path.length();
-        // A way of several laps; its end is the end of the last one.
+        // A take may step back at its start and beyond the end of the way at its end.
+        let distance = if self.is_endless { distance.max(0.0) } else { distance.max(0.0).min(self.distance) };
         let laps = if length > 0.0 { (distance / length).floor() } else { 0.0 };
         let rest = distance - laps * length;
-        let is_end = !self.is_endless && progress >= 1.0;
+        // The end of the last lap is not the start of another one.
+        let is_end = !self.is_endless && distance >= self.distance * (1.0 - 1e-9);
         let spot = self.path.at(if is_end && rest < 1e-6 * length { length } else { rest });
         let facing = match self.heading {
             PathHeading::Along => facing_of(spot.direction).map_or(fallback, |along| along - forward),
@@ -154,5 +163,15 @@ impl PathFollower {
             placement.position.y = 0.0;
         }
         placement
+    }
+}
+
+impl PathFollower {
+    /// Returns the time in the take, after its start, `after` the begin.
+    pub(super) fn take_time(&self, after: StageTime) -> StageTime {
+        let Some(stride) = &self.stride else { return StageTime::ZERO };
+        let phase = self.phase(after);
+        let loops = (phase / stride.seconds()).floor();
+        StageTime::from_seconds(phase - loops * stride.seconds())
     }
 }

@@ -62,7 +62,8 @@ pub(super) struct PlaceCue {
 }
 
 impl PlaceCue {
-    fn moves(&self) -> bool {
+    /// Returns whether it decides over the position.
+    pub(super) fn moves(&self) -> bool {
         match &self.kind {
             MotionKind::Put { position, .. } => position.is_some(),
             MotionKind::Follow(_) | MotionKind::Travel { .. } => true,
@@ -94,7 +95,10 @@ impl PlaceCue {
                 Placement { facing: self.start.facing + turned, ..self.start }
             }
             MotionKind::Travel { model, take, clock, scale } => {
-                let moved = model.takes().get(*take).map_or_else(Placement::default, |take| clock.movement(take, after));
+                let moved = model
+                    .takes()
+                    .get(*take)
+                    .map_or_else(Placement::default, |take| clock.movement(take, after));
                 self.start.then(&Placement { position: moved.position * *scale, ..moved })
             }
         }
@@ -158,6 +162,12 @@ impl PlaceLane {
     pub(super) fn last_begin(&self, time: StageTime) -> Option<(StageTime, usize)> {
         let begun = self.cues.partition_point(|cue| cue.begin <= time);
         self.cues[..begun].iter().rfind(|cue| cue.moves()).map(|cue| (cue.begin, cue.action))
+    }
+
+    /// Returns the motion of an action that begins at `begin`.
+    pub(super) fn cue_of(&self, action: usize, begin: StageTime) -> Option<&PlaceCue> {
+        let begun = self.cues.partition_point(|cue| cue.begin <= begin);
+        self.cues[..begun].iter().rfind(|cue| cue.action == action)
     }
 
     /// Returns the placement at `time` by the motion at `at` with what fades into it.

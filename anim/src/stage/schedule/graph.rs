@@ -90,7 +90,11 @@ impl<'a> TimeGraph<'a> {
             (None, None) if action.passive => (at == 0).then(|| self.passive_end(index)),
             (None, None) => {
                 let child = *action.children.get(at)?;
-                Some(if self.script.actions()[child].passive { TimeNode::Begin(child) } else { TimeNode::End(child) })
+                Some(if self.script.actions()[child].passive {
+                    TimeNode::Begin(child)
+                } else {
+                    TimeNode::End(child)
+                })
             }
         }
     }

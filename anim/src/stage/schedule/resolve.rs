@@ -2,7 +2,7 @@
 
 use super::graph::{TimeGraph, TimeNode};
 use super::{ActionTimes, Schedule};
-use crate::stage::script::{ActionMoment, ErrorList, RepeatCount, ScriptError, StageScript};
+use crate::stage::script::{ActionMoment, ErrorList, ScriptError, StageRepeat, StageScript};
 use crate::stage::time::{Decimal, StageTime};
 
 /// Computes when each action begins and ends.
@@ -42,7 +42,8 @@ impl<'a> Resolver<'a> {
     fn run(&mut self) -> Option<Vec<TimeNode>> {
         let mut is_open = vec![false; self.graph.slots()];
         let mut open: Vec<(TimeNode, usize)> = Vec::new();
-        let all = (0..self.script.actions().len()).flat_map(|action| [TimeNode::Begin(action), TimeNode::End(action)]);
+        let all = (0..self.script.actions().len())
+            .flat_map(|action| [TimeNode::Begin(action), TimeNode::End(action)]);
         for start in all {
             if self.times[self.graph.slot(start)].is_some() {
                 continue;
@@ -86,7 +87,8 @@ impl<'a> Resolver<'a> {
             },
             TimeNode::End(index) => self.unlimited_end(index).max(self.at(TimeNode::Begin(index))),
             TimeNode::Shots => {
-                self.shots = self.graph.shots.iter().map(|&shot| (self.at(TimeNode::Begin(shot)), shot)).collect();
+                self.shots =
+                    self.graph.shots.iter().map(|&shot| (self.at(TimeNode::Begin(shot)), shot)).collect();
                 self.shots.sort_unstable();
                 StageTime::ZERO
             }
@@ -112,7 +114,8 @@ impl<'a> Resolver<'a> {
     fn point(&self, play: usize, time: StageTime) -> StageTime {
         let element = self.script.element(play);
         let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
-        let from = element.value("from").and_then(|text| crate::stage::time::parse_time(text, self.script.rate()));
+        let from =
+            element.value("from").and_then(|text| crate::stage::time::parse_time(text, self.script.rate()));
         let after = (time - from.unwrap_or_default()).over(speed);
         if speed.is_negative() { self.once(play) - after } else { after }
     }
@@ -143,8 +146,8 @@ impl<'a> Resolver<'a> {
             return tails.fold(begin, StageTime::max);
         }
         let times = match action.repeat {
-            RepeatCount::Times(times) => times,
-            RepeatCount::Fill => Decimal::ONE,
+            StageRepeat::Times(times) => times,
+            StageRepeat::Fill => Decimal::ONE,
         };
         begin + self.once(index).times(times)
     }
@@ -165,7 +168,8 @@ impl<'a> Resolver<'a> {
     }
 
     fn schedule(&self) -> Schedule {
-        let mut schedule = Schedule { times: Vec::with_capacity(self.script.actions().len()), notes: Vec::new() };
+        let mut schedule =
+            Schedule { times: Vec::with_capacity(self.script.actions().len()), notes: Vec::new() };
         // For each action the earliest end that it or a container around it has of its own.
         let mut limits: Vec<Option<StageTime>> = Vec::with_capacity(self.script.actions().len());
         let note = |index: usize, end: StageTime| {
@@ -202,7 +206,9 @@ impl<'a> Resolver<'a> {
 /// Reports the nodes of a cycle, each with its action and line, and what usually helps.
 fn report_cycle(script: &StageScript, cycle: &[TimeNode], errors: &mut ErrorList) {
     let title = |node: &TimeNode| match *node {
-        TimeNode::Begin(action) => format!("begin of {}", script.tree().title(script.actions()[action].element)),
+        TimeNode::Begin(action) => {
+            format!("begin of {}", script.tree().title(script.actions()[action].element))
+        }
         TimeNode::End(action) => format!("end of {}", script.tree().title(script.actions()[action].element)),
         TimeNode::Shots => "begins of all shots".to_owned(),
     };

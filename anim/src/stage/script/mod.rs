@@ -13,9 +13,9 @@ mod suggest;
 mod text_place;
 mod tree;
 
+pub use crate::stage::moment::{MomentText, is_name};
 pub(in crate::stage) use error::ErrorList;
 pub use error::{MOST_ERRORS, ScriptError};
-pub use crate::stage::moment::{Moment, is_name};
 pub use read::{MOST_BYTES, MOST_DEPTH, MOST_NODES};
 pub(in crate::stage) use suggest::suggestion;
 use text_place::LineIndex;
@@ -29,7 +29,7 @@ use std::sync::Arc;
 
 /// How often an action runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RepeatCount {
+pub enum StageRepeat {
     /// This many times, not necessarily a whole number.
     Times(Decimal),
     /// For as long as there is time.
@@ -67,7 +67,7 @@ pub struct ScriptAction {
     /// Its duration, as written.
     pub dur: Option<StageTime>,
     /// How often it runs.
-    pub repeat: RepeatCount,
+    pub repeat: StageRepeat,
     /// Whether it has no length of its own (rule 3).
     pub passive: bool,
 }
@@ -109,7 +109,8 @@ impl StageScript {
             root.value("size").and_then(size).unwrap_or([1280, 720]),
             root.value("seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
         );
-        let mut script = Self { tree, rate, size, seed, things: Vec::new(), actions: Vec::new(), ids: HashMap::new() };
+        let mut script =
+            Self { tree, rate, size, seed, things: Vec::new(), actions: Vec::new(), ids: HashMap::new() };
         let lines = script.tree.lines.clone();
         let mut errors = ErrorList::new(&lines);
         script.collect(&mut errors);
@@ -141,7 +142,11 @@ impl StageScript {
             };
             let Some(id) = element.value("id") else { continue };
             if id == "prev" {
-                errors.add(element.value_range("id"), "\"prev\" means the action before, so nothing can be called that", "");
+                errors.add(
+                    element.value_range("id"),
+                    "\"prev\" means the action before, so nothing can be called that",
+                    "",
+                );
             } else if let Some(first) = self.ids.insert(id.into(), item) {
                 let first = match first {
                     NamedItem::Thing(thing) => self.things[thing],
@@ -158,9 +163,9 @@ impl StageScript {
         let element = &self.tree.elements[index];
         let time = |name: &str| element.value(name).and_then(|text| parse_time(text, self.rate));
         let repeat = match element.value("repeat") {
-            Some("fill") => RepeatCount::Fill,
-            Some(times) => RepeatCount::Times(Decimal::parse(times).unwrap_or(Decimal::ONE)),
-            None => RepeatCount::Times(Decimal::ONE),
+            Some("fill") => StageRepeat::Fill,
+            Some(times) => StageRepeat::Times(Decimal::parse(times).unwrap_or(Decimal::ONE)),
+            None => StageRepeat::Times(Decimal::ONE),
         };
         ScriptAction {
             element: index,

@@ -29,7 +29,8 @@ pub(super) fn read_tree(text: &Arc<str>) -> Result<ScriptTree, Vec<ScriptError>>
     } else if let Some(at) = too_deep(text) {
         errors.add(at..at, format!("elements are nested more than {MOST_DEPTH} deep"), "");
     } else {
-        let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+        let options =
+            ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
         match Document::parse_with_options(text, options) {
             Ok(document) => elements = checked(&document, &mut errors),
             Err(error) => {
@@ -90,8 +91,12 @@ fn tag_end(tag: &[u8]) -> usize {
 
 fn xml_message(error: &roxmltree::Error) -> String {
     let text = match error {
-        roxmltree::Error::DtdDetected => "document types (<!DOCTYPE …>) and their entities are refused".to_owned(),
-        roxmltree::Error::NodesLimitReached => format!("the script has more than {MOST_NODES} elements, texts and comments"),
+        roxmltree::Error::DtdDetected => {
+            "document types (<!DOCTYPE …>) and their entities are refused".to_owned()
+        }
+        roxmltree::Error::NodesLimitReached => {
+            format!("the script has more than {MOST_NODES} elements, texts and comments")
+        }
         roxmltree::Error::NoRootNode => "there is no element; <script version=\"1\"> is expected".to_owned(),
         other => {
             // The place is told in front of the message.
@@ -107,7 +112,8 @@ fn checked(document: &Document, errors: &mut ErrorList) -> Vec<ScriptElement> {
     let root = document.root_element();
     let mut elements = Vec::new();
     if root.tag_name().namespace().is_some() || root.tag_name().name() != "script" {
-        let message = format!("<{}> is not a script; <script version=\"1\"> is expected", root.tag_name().name());
+        let message =
+            format!("<{}> is not a script; <script version=\"1\"> is expected", root.tag_name().name());
         errors.add(name_range(&root), message, "");
         return elements;
     }
@@ -122,10 +128,20 @@ fn checked(document: &Document, errors: &mut ErrorList) -> Vec<ScriptElement> {
         let Some(row) = row else { continue };
         let attributes = attributes(&node, row, rate, errors);
         let index = elements.len();
-        elements.push(ScriptElement { row, parent, range: node.range(), name: name_range(&node), attributes });
+        elements.push(ScriptElement {
+            row,
+            parent,
+            range: node.range(),
+            name: name_range(&node),
+            attributes,
+        });
         for child in node.children() {
             if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
-                errors.add(child.range(), format!("<{}> contains a text; only elements are expected", row.name), "");
+                errors.add(
+                    child.range(),
+                    format!("<{}> contains a text; only elements are expected", row.name),
+                    "",
+                );
             }
         }
         let first = open.len();
@@ -173,20 +189,30 @@ fn parents_of(row: &ElementRow) -> String {
         ElementGroup::Container | ElementGroup::Action => "<script>, <seq> or <par>".to_owned(),
         ElementGroup::Part => {
             let has = |above: &&&ElementRow| above.parts.iter().any(|part| part.name == row.name);
-            let names: Vec<String> = ELEMENTS.iter().filter(has).map(|above| format!("<{}>", above.name)).collect();
+            let names: Vec<String> =
+                ELEMENTS.iter().filter(has).map(|above| format!("<{}>", above.name)).collect();
             names.join(", ")
         }
     }
 }
 
 /// Returns the attributes of an element that fit its row.
-fn attributes(node: &Node, row: &'static ElementRow, rate: StageRate, errors: &mut ErrorList) -> Vec<ScriptAttribute> {
+fn attributes(
+    node: &Node,
+    row: &'static ElementRow,
+    rate: StageRate,
+    errors: &mut ErrorList,
+) -> Vec<ScriptAttribute> {
     let mut found = Vec::new();
     for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
         let (name, value) = (attribute.name(), attribute.value());
         let Some(known) = row.attribute(name) else {
             let help = suggestion(name, "attributes", row.rows().map(|row| row.name));
-            errors.add(attribute.range_qname(), format!("\"{name}\" is not an attribute of <{}>", row.name), help);
+            errors.add(
+                attribute.range_qname(),
+                format!("\"{name}\" is not an attribute of <{}>", row.name),
+                help,
+            );
             continue;
         };
         if !known.value.accepts(value, rate) {
@@ -208,7 +234,8 @@ fn attributes(node: &Node, row: &'static ElementRow, rate: StageRate, errors: &m
     }
     let is_written = |name: &str| node.attribute(name).is_some();
     for missing in row.rows().filter(|row| row.required && !is_written(row.name)) {
-        let message = format!("<{}> needs the attribute {}: {}", row.name, missing.name, missing.value.expected);
+        let message =
+            format!("<{}> needs the attribute {}: {}", row.name, missing.name, missing.value.expected);
         errors.add(name_range(node), message, missing.help);
     }
     let given = row.one_of.iter().filter(|name| is_written(name)).count();

@@ -1,6 +1,6 @@
 //! References of actions: to things, to each other's moments, to properties.
 
-use super::{ActionMoment, ErrorList, Moment, NamedItem, RepeatCount, StageScript, suggestion};
+use super::{ActionMoment, ErrorList, MomentText, NamedItem, StageRepeat, StageScript, suggestion};
 use crate::stage::table::{PROPERTIES, PropertyType, property, vector};
 use crate::stage::time::{Decimal, StageTime, parse_time};
 
@@ -27,14 +27,15 @@ fn moment(script: &StageScript, index: usize, name: &str, errors: &mut ErrorList
     let element = script.element(index);
     let attribute = element.attribute(name)?;
     let range = attribute.value_range.clone();
-    let (action, point, offset) = match Moment::parse(&attribute.value, script.rate)? {
-        Moment::Offset(time) => return Some(ActionMoment::Offset(time)),
-        Moment::Of { action, point, offset } => (action, point, offset),
+    let (action, point, offset) = match MomentText::parse(&attribute.value, script.rate)? {
+        MomentText::Offset(time) => return Some(ActionMoment::Offset(time)),
+        MomentText::Of { action, point, offset } => (action, point, offset),
     };
     let other = if action == "prev" {
         let own = &script.actions[index];
         let before = own.position.checked_sub(1);
-        let other = own.parent.zip(before).and_then(|(parent, at)| script.actions[parent].children.get(at).copied());
+        let other =
+            own.parent.zip(before).and_then(|(parent, at)| script.actions[parent].children.get(at).copied());
         let Some(other) = other else {
             errors.add(range, "no action is before this one, so there is no `prev`", "");
             return None;
@@ -45,7 +46,11 @@ fn moment(script: &StageScript, index: usize, name: &str, errors: &mut ErrorList
             let ids = script.ids.iter().filter(|(_, item)| matches!(item, NamedItem::Action(_)));
             let mut ids: Vec<&str> = ids.map(|(id, _)| &**id).collect();
             ids.sort_unstable();
-            errors.add(range, format!("no action has the id \"{action}\""), suggestion(&action, "ids of actions", ids));
+            errors.add(
+                range,
+                format!("no action has the id \"{action}\""),
+                suggestion(&action, "ids of actions", ids),
+            );
             return None;
         };
         let NamedItem::Action(other) = item else {
@@ -91,7 +96,7 @@ fn is_passive(script: &StageScript, index: usize) -> bool {
         return false;
     }
     let endless = matches!(script.element(index).row.name, "look" | "run" | "shot" | "title");
-    endless || action.repeat == RepeatCount::Fill
+    endless || action.repeat == StageRepeat::Fill
 }
 
 /// Returns the containers around an action, the innermost first.
@@ -108,13 +113,17 @@ fn check_who(script: &StageScript, index: usize, errors: &mut ErrorList) {
     for (name, kinds) in [("who", element.row.who), ("path", &["path"][..])] {
         let Some(attribute) = element.attribute(name) else { continue };
         let is_one = |kind: &str| kinds.contains(&kind);
-        let kind = script.thing_called(&attribute.value).map(|thing| script.tree.elements[script.things[thing]].row.name);
+        let kind = script
+            .thing_called(&attribute.value)
+            .map(|thing| script.tree.elements[script.things[thing]].row.name);
         if kind.is_some_and(is_one) {
             continue;
         }
         let wanted = kinds.join(", ");
         let message = match kind {
-            Some(kind) => format!("\"{}\" is a {kind}; <{}> needs one of: {wanted}", attribute.value, element.row.name),
+            Some(kind) => {
+                format!("\"{}\" is a {kind}; <{}> needs one of: {wanted}", attribute.value, element.row.name)
+            }
             None => format!("no thing of the cast has the id \"{}\"", attribute.value),
         };
         let help = suggestion(&attribute.value, &format!("ids of {wanted}"), thing_names(script, is_one));
@@ -136,12 +145,20 @@ fn check_spots(script: &StageScript, index: usize, errors: &mut ErrorList) {
         let name = value.split_once('.').map_or(value, |(name, _)| name);
         match script.thing_called(name) {
             Some(thing) if script.tree.elements[script.things[thing]].row.name == "path" => {
-                errors.add(attribute.value_range.clone(), format!("\"{name}\" is a path, which has no position"), "");
+                errors.add(
+                    attribute.value_range.clone(),
+                    format!("\"{name}\" is a path, which has no position"),
+                    "",
+                );
             }
             Some(_) => {}
             None => {
                 let help = suggestion(name, "ids of things", thing_names(script, |kind| kind != "path"));
-                errors.add(attribute.value_range.clone(), format!("no thing of the cast has the id \"{name}\""), help);
+                errors.add(
+                    attribute.value_range.clone(),
+                    format!("no thing of the cast has the id \"{name}\""),
+                    help,
+                );
             }
         }
     }

@@ -10,7 +10,8 @@ pub(crate) fn suggestion<'a>(given: &str, title: &str, names: impl IntoIterator<
         return format!("there are no {title}");
     }
     let nearest = names.iter().map(|name| (distance(given, name), *name)).min();
-    let near = nearest.filter(|&(far, name)| far <= 1 + given.len().max(name.len()) / 4).map(|(_, name)| name);
+    let near =
+        nearest.filter(|&(far, name)| far <= 1 + given.len().max(name.len()) / 4).map(|(_, name)| name);
     // The likely ones first, where not all are listed.
     if names.len() > LISTED {
         names.sort_by_key(|name| distance(given, name));

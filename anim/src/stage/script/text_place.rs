@@ -29,7 +29,10 @@ pub(in crate::stage) struct LineIndex {
 impl LineIndex {
     pub(super) fn new(text: &Arc<str>) -> Self {
         let breaks = text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
-        Self { text: Arc::clone(text), starts: std::iter::once(0).chain(breaks.map(|(at, _)| at + 1)).collect() }
+        Self {
+            text: Arc::clone(text),
+            starts: std::iter::once(0).chain(breaks.map(|(at, _)| at + 1)).collect(),
+        }
     }
 
     /// Returns the place of the byte at `at`; that of the end for a position past it.
@@ -45,7 +48,8 @@ impl LineIndex {
     pub(super) fn range(&self, line: u32, column: u32) -> Range<usize> {
         let start = self.starts.get(line.saturating_sub(1) as usize).copied().unwrap_or(self.text.len());
         let rest = self.text.get(start..).unwrap_or("");
-        let within = rest.char_indices().nth(column.saturating_sub(1) as usize).map_or(rest.len(), |found| found.0);
+        let within =
+            rest.char_indices().nth(column.saturating_sub(1) as usize).map_or(rest.len(), |found| found.0);
         start + within..start + within
     }
 }

@@ -44,7 +44,8 @@ impl ScriptElement {
     /// Returns the value of `name`: as written, or the default. `None` where there is neither.
     pub fn value(&self, name: &str) -> Option<&str> {
         let written = self.attribute(name).map(|attribute| &*attribute.value);
-        written.or_else(|| self.row.attribute(name).map(|row| row.default).filter(|default| !default.is_empty()))
+        written
+            .or_else(|| self.row.attribute(name).map(|row| row.default).filter(|default| !default.is_empty()))
     }
 
     /// Returns the bytes of the value of `name`, or of the element's name where the attribute is not written: the place for errors.

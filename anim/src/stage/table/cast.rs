@@ -1,10 +1,10 @@
 //! The script, and the things of its cast.
 
-use super::value::{
-    AMOUNT, COLOR, FOCUS, LENS, NAME, NUMBER, POINTS, POSITIVE, RATE, SEED, SIZE, SOURCE, SPOT, TEXT, VECTOR, VERSION,
-    ValueRow, YES_NO,
-};
 use super::row::{AttributeRow, ElementGroup, ElementRow, optional, required};
+use super::value::{
+    AMOUNT, COLOR, FOCUS, LENS, NAME, NUMBER, POINTS, POSITIVE, RATE, SEED, SIZE, SOURCE, SPOT, TEXT, VECTOR,
+    VERSION, ValueRow, YES_NO,
+};
 
 const ID: &[AttributeRow] = &[required("id", NAME, "Name by which actions refer to it.")];
 
@@ -111,7 +111,12 @@ pub(super) const PATH: ElementRow = ElementRow {
             &[
                 optional("points", POINTS, "", "Points in meters, x y z each."),
                 optional("line", SOURCE, "", "Line that was drawn with the line tool."),
-                optional("curve", ValueRow::choice(&["straight", "smooth"]), "straight", "Course between the points."),
+                optional(
+                    "curve",
+                    ValueRow::choice(&["straight", "smooth"]),
+                    "straight",
+                    "Course between the points.",
+                ),
             ],
         ],
         "A way for `move`.",

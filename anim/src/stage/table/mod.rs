@@ -53,7 +53,9 @@ pub fn element(name: &str) -> Option<&'static ElementRow> {
 
 /// Returns the elements that may be inside `row`.
 pub fn children_of(row: &ElementRow) -> Vec<&'static ElementRow> {
-    let of = |groups: &[ElementGroup]| ELEMENTS.iter().copied().filter(|row| groups.contains(&row.group)).collect();
+    let of = |groups: &[ElementGroup]| {
+        ELEMENTS.iter().copied().filter(|row| groups.contains(&row.group)).collect()
+    };
     match row.group {
         ElementGroup::Script => of(&[ElementGroup::Cast, ElementGroup::Container, ElementGroup::Action]),
         ElementGroup::Cast => of(&[ElementGroup::Thing]),

@@ -56,7 +56,9 @@ fn define(out: &mut String, row: &'static ElementRow) {
         }
         let _ = writeln!(out, "    </choice>");
     }
-    out.push_str("    <ref name=\"foreign-attributes\"/>\n    <zeroOrMore><choice><ref name=\"foreign-element\"/>");
+    out.push_str(
+        "    <ref name=\"foreign-attributes\"/>\n    <zeroOrMore><choice><ref name=\"foreign-element\"/>",
+    );
     for child in children_of(row) {
         let _ = write!(out, "<ref name=\"{}\"/>", child.name);
     }
@@ -70,7 +72,8 @@ fn attribute(row: &AttributeRow) -> String {
             format!("<data type=\"string\"><param name=\"pattern\">{}</param></data>", escaped(pattern))
         }
         (choices, _) => {
-            let values: String = choices.iter().map(|choice| format!("<value>{}</value>", escaped(choice))).collect();
+            let values: String =
+                choices.iter().map(|choice| format!("<value>{}</value>", escaped(choice))).collect();
             format!("<choice>{values}</choice>")
         }
     };

@@ -1,6 +1,6 @@
 //! Kinds of values of attributes: what is expected, how it is checked, and its pattern in the schema.
 
-use crate::stage::moment::{Moment, is_moment_name, is_name};
+use crate::stage::moment::{MomentText, is_moment_name, is_name};
 use crate::stage::time::{Decimal, StageRate, StageTime, parse_time};
 
 /// A kind of value.
@@ -38,8 +38,12 @@ impl ValueRow {
 
 const NAME_PATTERN: &str = "[A-Za-z_][A-Za-z0-9_]*(-[A-Za-z0-9_]+)*";
 const POINT_PATTERN: &str = "[A-Za-z_][A-Za-z0-9_]*(-[A-Za-z][A-Za-z0-9_]*)*";
-const TIME_PATTERN: &str = "[0-9]*\\.?[0-9]*(ms|s|f)?|[0-9]+:[0-9]{2}(\\.[0-9]*)?";
-const MOMENT_PATTERN: &str = "-?[0-9]*\\.?[0-9]*(ms|s|f)?|-?[0-9]+:[0-9]{2}(\\.[0-9]*)?|[A-Za-z_][A-Za-z0-9_]*(-[A-Za-z0-9_]+)*\\.[A-Za-z_][A-Za-z0-9_]*(-[A-Za-z][A-Za-z0-9_]*)*([+\\-]([0-9]*\\.?[0-9]*(ms|s|f)?|[0-9]+:[0-9]{2}(\\.[0-9]*)?))?";
+const TIME_PATTERN: &str = "([0-9]+\\.?[0-9]*|\\.[0-9]+)(ms|s|f)?|[0-9]+:[0-9]{2}(\\.[0-9]*)?";
+const MOMENT_PATTERN: &str = concat!(
+    "-?(([0-9]+\\.?[0-9]*|\\.[0-9]+)(ms|s|f)?|[0-9]+:[0-9]{2}(\\.[0-9]*)?)|",
+    "[A-Za-z_][A-Za-z0-9_]*(-[A-Za-z0-9_]+)*\\.[A-Za-z_][A-Za-z0-9_]*(-[A-Za-z][A-Za-z0-9_]*)*",
+    "([+\\-](([0-9]+\\.?[0-9]*|\\.[0-9]+)(ms|s|f)?|[0-9]+:[0-9]{2}(\\.[0-9]*)?))?"
+);
 const NUMBER_PATTERN: &str = "[+\\-]?[0-9]*\\.?[0-9]+|[+\\-]?[0-9]+\\.";
 const VECTOR_PATTERN: &str = "\\s*[+\\-]?[0-9.]+(\\s+[+\\-]?[0-9.]+){2}\\s*";
 
@@ -50,67 +54,67 @@ pub(super) const MOMENT_NAME: ValueRow =
         is_moment_name(text) && !matches!(text, "begin" | "end")
     });
 pub(super) const TEXT: ValueRow = ValueRow::new("a text", "", |_, _| true);
-pub(super) const SOURCE: ValueRow = ValueRow::new(
-    "a relative path with `/`, below the folder of the script",
-    "[^/\\\\].*",
-    |text, _| {
+pub(super) const SOURCE: ValueRow =
+    ValueRow::new("a relative path with `/`, below the folder of the script", "[^/\\\\].*", |text, _| {
         let parts = || text.split('/');
-        !text.is_empty() && !text.contains(['\\', ':', '\0']) && parts().all(|part| !part.is_empty() && part != "..")
-    },
-);
-pub(super) const TIME: ValueRow = ValueRow::new(
-    "a time of 0 or more, such as 1.5, 250ms, 36f or 1:05.5",
-    TIME_PATTERN,
-    |text, rate| parse_time(text, rate).is_some_and(|time| time >= StageTime::ZERO),
-);
+        !text.is_empty()
+            && !text.contains(['\\', ':', '\0'])
+            && parts().all(|part| !part.is_empty() && part != "..")
+    });
+pub(super) const TIME: ValueRow =
+    ValueRow::new("a time of 0 or more, such as 1.5, 250ms, 36f or 1:05.5", TIME_PATTERN, |text, rate| {
+        parse_time(text, rate).is_some_and(|time| time >= StageTime::ZERO)
+    });
 pub(super) const MOMENT: ValueRow = ValueRow::new(
     "a time such as 1.5 or 36f, or a moment such as walk.end-0.5, prev.begin or grab.touch+6f",
     MOMENT_PATTERN,
-    |text, rate| Moment::parse(text, rate).is_some(),
+    |text, rate| MomentText::parse(text, rate).is_some(),
 );
 pub(super) const NUMBER: ValueRow =
     ValueRow::new("a number", NUMBER_PATTERN, |text, _| Decimal::parse(text).is_some());
-pub(super) const POSITIVE: ValueRow = ValueRow::new("a number above 0", "[+]?[0-9]*\\.?[0-9]+|[+]?[0-9]+\\.", |text, _| {
-    Decimal::parse(text).is_some_and(|number| !number.is_negative() && !number.is_zero())
-});
-pub(super) const AMOUNT: ValueRow = ValueRow::new("a number of 0 or more", "[+]?[0-9]*\\.?[0-9]+|[+]?[0-9]+\\.", |text, _| {
-    Decimal::parse(text).is_some_and(|number| !number.is_negative())
-});
-pub(super) const SPEED: ValueRow = ValueRow::new(
-    "a number other than 0; below 0 plays backwards",
-    NUMBER_PATTERN,
-    |text, _| Decimal::parse(text).is_some_and(|number| !number.is_zero()),
-);
-pub(super) const SHARE: ValueRow = ValueRow::new("a number from 0 to 1", "0|1|0?\\.[0-9]+|0\\.|1\\.0*", |text, _| {
-    Decimal::parse(text).is_some_and(|number| (0.0..=1.0).contains(&number.to_f64()))
-});
-pub(super) const REPEAT: ValueRow = ValueRow::new("a number above 0, or `fill`", "fill|[0-9]*\\.?[0-9]+|[0-9]+\\.", |text, _| {
-    text == "fill" || Decimal::parse(text).is_some_and(|number| !number.is_negative() && !number.is_zero())
-});
+pub(super) const POSITIVE: ValueRow =
+    ValueRow::new("a number above 0", "[+]?[0-9]*\\.?[0-9]+|[+]?[0-9]+\\.", |text, _| {
+        Decimal::parse(text).is_some_and(|number| !number.is_negative() && !number.is_zero())
+    });
+pub(super) const AMOUNT: ValueRow =
+    ValueRow::new("a number of 0 or more", "[+]?[0-9]*\\.?[0-9]+|[+]?[0-9]+\\.", |text, _| {
+        Decimal::parse(text).is_some_and(|number| !number.is_negative())
+    });
+pub(super) const SPEED: ValueRow =
+    ValueRow::new("a number other than 0; below 0 plays backwards", NUMBER_PATTERN, |text, _| {
+        Decimal::parse(text).is_some_and(|number| !number.is_zero())
+    });
+pub(super) const SHARE: ValueRow =
+    ValueRow::new("a number from 0 to 1", "0|1|0?\\.[0-9]+|0\\.|1\\.0*", |text, _| {
+        Decimal::parse(text).is_some_and(|number| (0.0..=1.0).contains(&number.to_f64()))
+    });
+pub(super) const REPEAT: ValueRow =
+    ValueRow::new("a number above 0, or `fill`", "fill|[0-9]*\\.?[0-9]+|[0-9]+\\.", |text, _| {
+        text == "fill"
+            || Decimal::parse(text).is_some_and(|number| !number.is_negative() && !number.is_zero())
+    });
 pub(super) const VECTOR: ValueRow =
     ValueRow::new("three numbers, x y z", VECTOR_PATTERN, |text, _| vector(text).is_some());
-pub(super) const POINT_2D: ValueRow = ValueRow::new(
-    "two numbers, x y, each from 0 to 1",
-    "\\s*[0-9.]+\\s+[0-9.]+\\s*",
-    |text, _| numbers(text).is_some_and(|all| all.len() == 2 && all.iter().all(|part| (0.0..=1.0).contains(part))),
-);
+pub(super) const POINT_2D: ValueRow =
+    ValueRow::new("two numbers, x y, each from 0 to 1", "\\s*[0-9.]+\\s+[0-9.]+\\s*", |text, _| {
+        numbers(text).is_some_and(|all| all.len() == 2 && all.iter().all(|part| (0.0..=1.0).contains(part)))
+    });
 pub(super) const POINTS: ValueRow = ValueRow::new(
     "two or more points of three numbers each, such as 0 0 0  1 0 0",
     "\\s*[+\\-]?[0-9.]+(\\s+[+\\-]?[0-9.]+)+\\s*",
     |text, _| points(text).is_some_and(|points| points.len() >= 2),
 );
-pub(super) const SPOT: ValueRow = ValueRow::new(
-    "a name such as anna, a bone such as anna.Head, or a point x y z",
-    "",
-    |text, _| vector(text).is_some() || is_name(text.split_once('.').map_or(text, |(name, _)| name)),
-);
-pub(super) const DIRECTION: ValueRow = ValueRow::new(
-    "a name, a point x y z, or degrees",
-    "",
-    |text, rate| Decimal::parse(text).is_some() || (SPOT.is_valid)(text, rate),
-);
+pub(super) const SPOT: ValueRow =
+    ValueRow::new("a name such as anna, a bone such as anna.Head, or a point x y z", "", |text, _| {
+        vector(text).is_some() || is_name(text.split_once('.').map_or(text, |(name, _)| name))
+    });
+pub(super) const DIRECTION: ValueRow =
+    ValueRow::new("a name, a point x y z, or degrees", "", |text, rate| {
+        Decimal::parse(text).is_some() || (SPOT.is_valid)(text, rate)
+    });
 pub(super) const COLOR: ValueRow = ValueRow::new("a color such as #ffcc00", "#[0-9A-Fa-f]{6}", |text, _| {
-    text.strip_prefix('#').is_some_and(|hex| hex.len() == 6 && hex.bytes().all(|byte| byte.is_ascii_hexdigit()))
+    text.strip_prefix('#')
+        .is_some_and(|hex| hex.len() == 6 && hex.bytes().all(|byte| byte.is_ascii_hexdigit()))
 });
 pub(super) const LENS: ValueRow = ValueRow::new(
     "a focal length in millimeters such as 35mm, from 1 to 5000",
@@ -123,19 +127,21 @@ pub(super) const LENS: ValueRow = ValueRow::new(
 pub(super) const FOCUS: ValueRow = ValueRow::new(
     "a distance in meters, a name, a bone such as anna.Head, or a point x y z",
     "",
-    |text, rate| Decimal::parse(text).is_some_and(|number| !number.is_negative()) || (SPOT.is_valid)(text, rate),
+    |text, rate| {
+        Decimal::parse(text).is_some_and(|number| !number.is_negative()) || (SPOT.is_valid)(text, rate)
+    },
 );
-pub(super) const HEADING: ValueRow = ValueRow::new("`along`, `keep`, or degrees", "along|keep|[+\\-]?[0-9]*\\.?[0-9]+", |text, _| {
-    matches!(text, "along" | "keep") || Decimal::parse(text).is_some()
+pub(super) const HEADING: ValueRow =
+    ValueRow::new("`along`, `keep`, or degrees", "along|keep|[+\\-]?[0-9]*\\.?[0-9]+", |text, _| {
+        matches!(text, "along" | "keep") || Decimal::parse(text).is_some()
+    });
+pub(super) const NAMES: ValueRow = ValueRow::new("names with commas between them", "", |text, _| {
+    text.split(',').all(|name| !name.trim().is_empty())
 });
-pub(super) const NAMES: ValueRow = ValueRow::new(
-    "names with commas between them",
-    "",
-    |text, _| text.split(',').all(|name| !name.trim().is_empty()),
-);
-pub(super) const SIZE: ValueRow = ValueRow::new("a width and a height such as 1280x720, up to 16384", "[0-9]+x[0-9]+", |text, _| {
-    size(text).is_some()
-});
+pub(super) const SIZE: ValueRow =
+    ValueRow::new("a width and a height such as 1280x720, up to 16384", "[0-9]+x[0-9]+", |text, _| {
+        size(text).is_some()
+    });
 pub(super) const RATE: ValueRow = ValueRow::new(
     "frames per second such as 24, 23.976 or 30000/1001, from 1 to 1000",
     "[0-9]+(\\.[0-9]{1,3})?|[0-9]+/[0-9]+",
@@ -148,9 +154,10 @@ pub(super) const YES_NO: ValueRow = ValueRow::choice(&["yes", "no"]);
 pub(super) const EASE: ValueRow = ValueRow::choice(&["linear", "in", "out", "in-out"]);
 pub(super) const FILL: ValueRow = ValueRow::choice(&["hold", "release"]);
 /// A value whose kind depends on the property that it is for; checked where the property is known.
-pub(super) const PROPERTY_VALUE: ValueRow = ValueRow::new("a number or a color such as #ffcc00", "", |text, rate| {
-    Decimal::parse(text).is_some() || (COLOR.is_valid)(text, rate)
-});
+pub(super) const PROPERTY_VALUE: ValueRow =
+    ValueRow::new("a number or a color such as #ffcc00", "", |text, rate| {
+        Decimal::parse(text).is_some() || (COLOR.is_valid)(text, rate)
+    });
 
 /// Reads numbers with blanks between them.
 pub(in crate::stage) fn numbers(text: &str) -> Option<Vec<f64>> {
