@@ -1,4 +1,4 @@
-//! What scripts refer to: models, drawn lines, sounds.
+//! Models, drawn lines and sounds that scripts refer to.
 
 use super::model::StageModel;
 use super::time::StageTime;

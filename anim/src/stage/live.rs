@@ -14,7 +14,7 @@ pub struct LiveStage {
 }
 
 impl LiveStage {
-    /// Reads and plans a new text. Returns whether it worked; otherwise the plan stays the one before, and [`Self::errors`] says why.
+    /// Reads and plans a new text. Returns whether it worked; otherwise the plan stays the one before, and [`Self::errors`] has the reasons.
     pub fn update(&mut self, text: impl Into<Arc<str>>, assets: &StageAssets) -> bool {
         let planned = StageScript::read(text).and_then(|script| {
             let plan = StagePlan::new(&script, assets)?;

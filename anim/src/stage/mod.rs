@@ -63,19 +63,19 @@
 //!
 //! # The rules of time
 //!
-//! 1. *Begin.* In a `seq` an action begins at the end of the one before, in a `par` at the begin of the `par`. `begin="2"` is an offset to
+//! 1. *Begin.* In a `seq` an action begins at the end of the one before, in a `par` at the start of the `par`. `begin="2"` is an offset to
 //!    that; `begin="grab.touch-0.5"` replaces it by a moment of another action: its `begin`, its `end`, or an `<at>` of its take. `prev` is
 //!    the action before.
 //! 2. *End.* A `play` lasts as long as its part of the take, divided by its speed; a `move` as its way takes; the others last no time. `repeat`
 //!    multiplies that; `dur` or `end` replaces it. Without a `speed`, `dur` and `end` stretch a `move`; otherwise they cut.
 //! 3. *Passive* is what has no length of its own: `look`, `run`, `shot` and `title` without `dur` or `end`, `repeat="fill"`, and everything
-//!    whose `end` is the end of a container around it. It lasts to the begin of the next action in its `seq` if that has a `begin` of its own,
+//!    whose `end` is the end of a container around it. It lasts to the start of the next action in its `seq` if that has a `begin` of its own,
 //!    else to the end of the nearest `par`; a `shot` to the next shot anywhere. It lengthens nothing.
 //! 4. *A container* ends with the last of its actions that is not passive. One with an end of its own stops what is inside at that time;
 //!    references to the end of something inside still mean the end by these rules.
 //! 5. *Who decides.* Of actions on the same channel of a thing, the one that began last decides; of those that began together, the last in
 //!    the text. `fade-in` mixes with what was before and moves nothing in time. After its end an action holds its last state, unless it has
-//!    `fill="release"` or fades out; `look`, layers, titles and effects let go.
+//!    `fill="release"` or fades out; `look`, layers, titles and effects are released.
 //!
 //! Times are exact ([`time`]), and a time that depends on itself is an error that names every action in the loop.
 //!
@@ -90,7 +90,7 @@
 //! The rules are those of the prototype with these changes. An `end` at a container's end counts exactly, with its offset, in place of "the
 //! nearest `par`". A title without a duration is passive; it would never be seen. A container with an end of its own stops what is inside. Points of a take
 //! respect `from` and a negative `speed`. Ids may have `-` before a digit (`scene-1`); only names of moments may not, because `touch-0.5` has
-//! an offset. Ends before begins take no time, with a note. `gap`, for a `move` to a thing, stops before it, and `turn`, for `attach`, rotates. `repeat` is an
+//! an offset. Ends before begins take no time, with a note. `gap`, for a `move` to a thing, is the distance at which it stops, and `turn`, for `attach`, rotates. `repeat` is an
 //! attribute of `play`, `move` and `sound` alone.
 //!
 //! # Limits
@@ -118,5 +118,5 @@ pub use model::{FootContact, StageFoot, StageModel, StageTake};
 pub use path::{PathSpot, StagePath};
 pub use plan::{Placement, PlannedThing, SoundCue, StagePlan, TitleCue};
 pub use scene::{
-    EffectState, HeardSound, LightState, ShownTitle, StageCamera, StageScene, ThingPose, ThingState,
+    EffectState, LightState, PlayingSound, ShownTitle, StageCamera, StageScene, ThingPose, ThingState,
 };

@@ -1,7 +1,8 @@
-//! Paths by length: where one is after so many meters, and in which direction it goes there.
+//! Paths by length: position and direction after a distance in meters.
 //!
 //! A smooth path is a Catmull-Rom spline through its points: between two of them a cubic whose slope at each is half the difference of
-//! its neighbors. Its length is summed over 64 straight pieces of each part.
+//! its neighbors. Its length is summed over 64 straight pieces of each part;
+//! within a piece the speed of the parameter changes evenly.
 
 use glam::DVec3;
 
@@ -63,7 +64,9 @@ impl StagePath {
         let span = self.lengths[piece + 1] - self.lengths[piece];
         let within = if span > 0.0 { (distance - self.lengths[piece]) / span } else { 0.0 };
         let (part, pieces) = (piece / self.pieces(), self.pieces() as f64);
-        let share = ((piece % self.pieces()) as f64 + within) / pieces;
+        let first = (piece % self.pieces()) as f64;
+        let ends = [first, first + 1.0].map(|at| self.slope(part, at / pieces).length());
+        let share = (first + evened(ends, within)) / pieces;
         PathSpot { position: self.point(part, share), direction: self.slope(part, share).normalize_or_zero() }
     }
 
@@ -115,4 +118,12 @@ impl StagePath {
         };
         (slope(part), slope(part + 1))
     }
+}
+
+/// Returns the share of a parameter at the share `way` of the way, where the speed changes evenly from `before` to `after`: the root of
+/// `before u + (after - before) u² / 2 = way (before + after) / 2`.
+fn evened([before, after]: [f64; 2], way: f64) -> f64 {
+    let whole = 0.5 * way * (before + after);
+    let root = (before * before + 2.0 * (after - before) * whole).max(0.0).sqrt();
+    if before + root > 0.0 { (2.0 * whole / (before + root)).clamp(0.0, 1.0) } else { way }
 }

@@ -16,8 +16,8 @@ pub struct StageScene {
     pub camera: Option<StageCamera>,
     /// The titles that are shown.
     pub titles: Vec<ShownTitle>,
-    /// The sounds that are heard.
-    pub sounds: Vec<HeardSound>,
+    /// The sounds that play.
+    pub sounds: Vec<PlayingSound>,
     pub(super) scratch: StageScratch,
 }
 
@@ -99,7 +99,7 @@ pub struct ShownTitle {
 
 /// A sound.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HeardSound {
+pub struct PlayingSound {
     /// The sound: a position in [`crate::stage::StagePlan::sounds`].
     pub sound: usize,
     /// Seconds in the sound.

@@ -104,7 +104,7 @@ impl Decimal {
     /// Number of digits after the point that are read.
     const MOST_SCALE: u32 = 9;
 
-    /// Reads digits with at most one point and a sign, such as `-1.25`. Digits after the ninth behind the point have to be 0. Returns
+    /// Reads digits with at most one point and a sign, such as `-1.25`. Decimals past the ninth have to be 0. Returns
     /// `None` for anything else, and where the magnitude is a thousand million or more.
     pub fn parse(text: &str) -> Option<Self> {
         let (sign, unsigned) = match text.strip_prefix('-') {

@@ -1,6 +1,6 @@
 //! Models for scenes.
 
-use super::{read, told};
+use super::{listed, read};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read as read_model};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan, StageScene, ThingState};
@@ -52,7 +52,7 @@ pub(super) fn fox_script(actions: &str) -> String {
 }
 
 pub(super) fn planned(text: &str, assets: &StageAssets) -> StagePlan {
-    StagePlan::new(&read(text), assets).unwrap_or_else(|errors| panic!("{}", told(&errors)))
+    StagePlan::new(&read(text), assets).unwrap_or_else(|errors| panic!("{}", listed(&errors)))
 }
 
 pub(super) fn seconds(seconds: f64) -> StageTime {

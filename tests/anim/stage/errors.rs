@@ -1,12 +1,12 @@
 //! Messages of scripts that are wrong.
 
-use super::{DUEL, scene, told};
+use super::{DUEL, listed, scene};
 use dragonfly_anim::stage::script::{MOST_BYTES, MOST_DEPTH, MOST_ERRORS, StageScript};
 use dragonfly_kit::random::Random;
 
 /// Returns the errors of the text, one a line.
 fn errors(text: &str) -> String {
-    told(&StageScript::read(text).unwrap_err())
+    listed(&StageScript::read(text).unwrap_err())
 }
 
 #[test]
@@ -22,7 +22,8 @@ fn a_misspelt_attribute_has_a_place_and_a_suggestion() {
 }
 
 #[test]
-fn each_kind_of_mistake_is_told_with_what_was_expected() {
+fn each_kind_of_mistake_has_a_message_with_what_was_expected() {
+    let mut wrong = Vec::new();
     for (actions, expected) in [
         ("<pley who=\"anna\"/>", "3:2: <pley> is no element of <script>; did you mean \"play\"? (elements: "),
         ("<at name=\"x\" time=\"1\"/>", "3:2: <at> is no element of <script>; it belongs in <play>"),
@@ -80,16 +81,16 @@ fn each_kind_of_mistake_is_told_with_what_was_expected() {
         ),
         ("<sound src=\"../../secret\"/>", "3:13: src=\"../../secret\" is not a relative path"),
         ("<wait/>words", "3:8: <script> contains a text; only elements are expected"),
-        ("<seq><wait></seq>", "3:14: this is not XML: expected 'wait' tag, not 'seq'"),
+        ("<seq><wait></seq>", "3:12: this is not XML: expected 'wait' tag, not 'seq'"),
         ("<wait dur=\"1\" dur=\"2\"/>", "3:15: this is not XML: attribute 'dur'"),
         ("<wait dur=\"&nope;\"/>", "3:12: this is not XML: "),
     ] {
         let found = errors(&scene(actions));
-        assert!(
-            found.lines().any(|line| line["scene.xml:".len()..].starts_with(expected)),
-            "{actions}\n{expected}\n{found}"
-        );
+        if !found.lines().any(|line| line["scene.xml:".len()..].starts_with(expected)) {
+            wrong.push(format!("{actions}\n    {expected}\n    {found}"));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]

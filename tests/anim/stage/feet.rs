@@ -1,4 +1,4 @@
-//! Feet on a path: they stand still while they are on the ground.
+//! Feet on a path: they are still while they are on the ground.
 
 use super::actors::{at, bone, fox, planned, rogue, seconds, thing};
 use dragonfly_anim::stage::{StageAssets, StageModel};

@@ -45,7 +45,7 @@ fn lengths(script: &StageScript) -> Vec<StageTime> {
                 (to - from) / number("speed").unwrap_or(1.0).abs()
             }
             "move" => {
-                // A duration stands for a speed.
+                // A duration replaces a speed.
                 let speed =
                     number("speed").unwrap_or_else(|| element.value("take").map_or(1.0, |name| take(name).1));
                 let path = element
@@ -70,16 +70,16 @@ fn way(points: &str) -> f64 {
 }
 
 fn read(text: &str) -> StageScript {
-    StageScript::read(text).unwrap_or_else(|errors| panic!("{}", told(&errors)))
+    StageScript::read(text).unwrap_or_else(|errors| panic!("{}", listed(&errors)))
 }
 
 fn scheduled(text: &str) -> (StageScript, Schedule) {
     let script = read(text);
-    let schedule = resolve(&script, &lengths(&script)).unwrap_or_else(|errors| panic!("{}", told(&errors)));
+    let schedule = resolve(&script, &lengths(&script)).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
     (script, schedule)
 }
 
-fn told(errors: &[ScriptError]) -> String {
+fn listed(errors: &[ScriptError]) -> String {
     errors.iter().map(|error| error.in_file("scene.xml")).collect::<Vec<_>>().join("\n")
 }
 

@@ -163,7 +163,7 @@ impl<'a> Oracle<'a> {
         Some(begin + self.simple(node) * repeat)
     }
 
-    /// Returns the begin of the shot that follows in time, or in the text where two begin together.
+    /// Returns the start of the shot that follows in time, or in the text where two begin together.
     fn next_shot(&mut self, node: Node<'a, 'a>, begin: f64) -> Option<Option<f64>> {
         let shots: Vec<Node> =
             self.document.descendants().filter(|other| other.has_tag_name("shot")).collect();

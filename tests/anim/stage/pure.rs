@@ -33,12 +33,6 @@ fn any_frame_has_the_same_bits_in_any_order_on_any_thread_and_in_any_scene() {
         })
         .collect();
     assert!(forward.windows(2).filter(|pair| pair[0] != pair[1]).count() as i64 > frames / 2);
-    assert!(
-        forward
-            .iter()
-            .flatten()
-            .all(|&bits| f32::from_bits(bits).is_finite() || f32::from_bits(bits).is_nan())
-    );
     for _ in 0..300 {
         let frame = random.below(frames as usize);
         if random.below(5) == 0 {

@@ -1,6 +1,6 @@
 //! Random scripts, resolved by the library and by the oracle; and the time that large ones take.
 
-use super::{lengths, oracle, read, scene, told};
+use super::{lengths, listed, oracle, read, scene};
 use dragonfly_anim::stage::schedule::resolve;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_kit::random::{Random, seed};
@@ -171,11 +171,11 @@ fn ten_thousand_random_scripts_have_the_times_of_the_oracle() {
                 resolved += 1;
             }
             (Err(errors), None) => {
-                assert_eq!(errors.len(), 1, "{}", told(&errors));
+                assert_eq!(errors.len(), 1, "{}", listed(&errors));
                 cycles += 1;
             }
             (found, expected) => {
-                let found = found.map(|_| "times").map_err(|errors| told(&errors));
+                let found = found.map(|_| "times").map_err(|errors| listed(&errors));
                 panic!("seed {}: {found:?}, the oracle: {expected:?}\n{text}", at - 1);
             }
         }
@@ -210,7 +210,7 @@ fn large(count: usize) -> String {
 
 #[test]
 fn work_grows_in_proportion_to_the_script() {
-    // Allocations stand for work here; the time is measured by the benchmark.
+    // Allocations measure the work here; the benchmark measures the time.
     let steps = |count: usize| {
         let text = large(count);
         let (allocated, script) = dragonfly_kit::counting::count(|| read(&text));

@@ -1,7 +1,7 @@
-//! What a scene contains at a time, by example.
+//! The contents of a scene at a time, by example.
 
 use super::actors::{assets, at, bone, fox, fox_script, foxes, planned, seconds, thing};
-use super::told;
+use super::listed;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StageAssets, StagePlan};
@@ -34,13 +34,13 @@ fn things_stand_where_the_cast_says() {
 
 #[test]
 fn a_path_is_followed_at_the_given_speed_and_the_role_stays_at_its_end() {
-    let plan = foxes("<move id=\"m\" who=\"anna\" path=\"aisle\" speed=\"2\" take=\"Walk\"/>");
+    let plan = foxes("<move id=\"m\" who=\"anna\" path=\"aisle\" speed=\"2\"/>");
     assert_eq!(plan.length().seconds(), 2.5);
     near(position(&plan, "anna", 0.0), [0.0, 0.0, 0.0]);
     near(position(&plan, "anna", 1.25), [1.5, 0.0, 2.0]);
     near(position(&plan, "anna", 2.5), [3.0, 0.0, 4.0]);
     near(position(&plan, "anna", 100.0), [3.0, 0.0, 4.0]);
-    assert!((facing(&plan, "anna", 1.0) - 36.869_897).abs() < 1.0, "{}", facing(&plan, "anna", 1.0));
+    assert!((facing(&plan, "anna", 1.0) - 36.869_897).abs() < 1e-5, "{}", facing(&plan, "anna", 1.0));
 }
 
 #[test]
@@ -48,14 +48,22 @@ fn without_a_speed_the_stride_of_the_take_decides() {
     let model = fox();
     let walk = &model.takes()[model.take_called("Walk").unwrap()];
     let speed = walk.stride_speed().unwrap() * 0.01;
+    // The speed varies with the steps, so all is within a part of one.
+    let close = |plan: &StagePlan, time: f64, expected: [f32; 3]| {
+        let found = position(plan, "anna", time);
+        assert!(found.distance(expected.into()) < 0.06, "{time}: {found}");
+    };
     let plan = foxes("<move who=\"anna\" path=\"aisle\" take=\"Walk\"/>");
-    assert!((plan.length().seconds() - 5.0 / speed).abs() < 1e-6, "{} {speed}", plan.length().seconds());
+    assert!((plan.length().seconds() - 5.0 / speed).abs() < 0.06, "{} {speed}", plan.length().seconds());
+    close(&plan, 2.5 / speed, [1.5, 0.0, 2.0]);
+    near(position(&plan, "anna", 9.0), [3.0, 0.0, 4.0]);
     // With a duration, the take is faster.
     let plan = foxes("<move who=\"anna\" path=\"aisle\" take=\"Walk\" dur=\"2\"/>");
-    near(position(&plan, "anna", 1.0), [1.5, 0.0, 2.0]);
+    close(&plan, 1.0, [1.5, 0.0, 2.0]);
+    near(position(&plan, "anna", 2.0), [3.0, 0.0, 4.0]);
     // A speed and a duration: the way is cut.
     let plan = foxes("<move who=\"anna\" path=\"aisle\" take=\"Walk\" dur=\"2\" speed=\"1\"/>");
-    near(position(&plan, "anna", 3.0), [1.2, 0.0, 1.6]);
+    close(&plan, 3.0, [1.2, 0.0, 1.6]);
 }
 
 #[test]
@@ -195,7 +203,7 @@ fn a_layer_moves_only_its_bones() {
         masked += usize::from(below(bone));
     }
     assert!(masked >= 2 && masked < found.bones());
-    // Layers let go at their end.
+    // Layers are released at their end.
     assert_eq!(get(&plan, 3.0), get(&plain, 3.0));
 }
 
@@ -223,17 +231,17 @@ fn what_is_attached_follows_the_bone_is_handed_over_and_falls() {
     let scene = at(&plan, 2.25);
     let sword = thing(&plan, &scene, "sword").transform.translation;
     assert!(sword.distance(bone(&plan, &scene, "ben", head as u32)) > 0.5);
-    // It is let go where it was, and falls.
-    let (held, let_go) = (position(&plan, "sword", 4.0 - 1e-9), position(&plan, "sword", 4.0));
-    assert!(held.distance(let_go) < 1e-3, "{held} {let_go}");
+    // It is detached where it was, and falls.
+    let (held, detach_places) = (position(&plan, "sword", 4.0 - 1e-9), position(&plan, "sword", 4.0));
+    assert!(held.distance(detach_places) < 1e-3, "{held} {detach_places}");
     let falling = position(&plan, "sword", 4.1);
-    assert!((let_go.y - falling.y - 0.5 * 9.81 * 0.01).abs() < 1e-4);
-    near(position(&plan, "sword", 7.0), [let_go.x, 0.0, let_go.z]);
+    assert!((detach_places.y - falling.y - 0.5 * 9.81 * 0.01).abs() < 1e-4);
+    near(position(&plan, "sword", 7.0), [detach_places.x, 0.0, detach_places.z]);
     near(position(&plan, "sword", 8.5), [7.0, 7.0, 7.0]);
 }
 
 #[test]
-fn a_role_looks_at_what_it_is_told_to() {
+fn a_role_looks_at_its_target() {
     let model = fox();
     let name = model.skeleton().bones.iter().find(|bone| bone.name.contains("Head")).unwrap().name.clone();
     let head = model.skeleton().find(&name).unwrap();
@@ -329,7 +337,7 @@ fn lights_effects_titles_and_sounds() {
 fn what_a_model_does_not_have_is_an_error_with_its_place_and_the_names_it_has() {
     let errors = |actions: &str| {
         let script = StageScript::read(fox_script(actions)).unwrap();
-        told(&StagePlan::new(&script, &assets(&fox())).unwrap_err())
+        listed(&StagePlan::new(&script, &assets(&fox())).unwrap_err())
     };
     for (actions, expected) in [
         (
@@ -358,7 +366,7 @@ fn what_a_model_does_not_have_is_an_error_with_its_place_and_the_names_it_has() 
         );
     }
     let script = StageScript::read(fox_script("")).unwrap();
-    let found = told(&StagePlan::new(&script, &StageAssets::default()).unwrap_err());
+    let found = listed(&StagePlan::new(&script, &StageAssets::default()).unwrap_err());
     assert!(found.contains("there is no model \"a.glb\"; there are no models"), "{found}");
 }
 
@@ -370,6 +378,6 @@ fn a_way_whose_length_depends_on_itself_is_an_error() {
          <wait id=\"w\" begin=\"x.end-17\"/><wait id=\"x\" begin=\"m.end\"/>",
     );
     let script = StageScript::read(script).unwrap();
-    let errors = told(&StagePlan::new(&script, &assets(&fox())).unwrap_err());
+    let errors = listed(&StagePlan::new(&script, &assets(&fox())).unwrap_err());
     assert!(errors.contains("depends on itself"), "{errors}");
 }

@@ -28,10 +28,12 @@ fn an_independent_validator_accepts_every_example_and_refuses_what_we_refuse() {
     if is_valid(&folder, "duel.xml", DUEL).is_none() {
         return skip(TestNeed::Program, "there is no xmllint");
     }
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/stage");
+    let folders = ["../tests/data/stage", "examples"];
     let mut examples = 0;
-    for entry in std::fs::read_dir(data).unwrap() {
-        let path = entry.unwrap().path();
+    for entry in folders.into_iter().flat_map(|folder| {
+        std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)).unwrap().map(Result::unwrap)
+    }) {
+        let path = entry.path();
         if path.extension().is_some_and(|extension| extension == "xml") {
             let (valid, message) =
                 is_valid(&folder, "example.xml", &std::fs::read_to_string(&path).unwrap()).unwrap();
@@ -39,7 +41,7 @@ fn an_independent_validator_accepts_every_example_and_refuses_what_we_refuse() {
             examples += 1;
         }
     }
-    assert!(examples >= 1);
+    assert!(examples >= 2);
     let foreign = DUEL
         .replace("<script ", "<script xmlns:x=\"urn:x\" x:y=\"1\" ")
         .replace("<par id", "<x:a><x:b c=\"d\"/></x:a><par id");

@@ -1,6 +1,6 @@
 //! Exact times, and the rules of begins and ends by example.
 
-use super::{DUEL, scene, scheduled, span, told};
+use super::{DUEL, listed, scene, scheduled, span};
 use dragonfly_anim::stage::schedule::resolve;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::time::{Decimal, StageRate, StageTime, TICKS_PER_SECOND, parse_time};
@@ -56,20 +56,20 @@ fn decimals_are_multiplied_and_divided_with_one_rounding() {
 
 #[test]
 fn the_scene_of_the_reference_has_the_times_of_the_prototype() {
-    near(span(DUEL, "anna-walk"), (0.0, 2.578_834));
-    near(span(DUEL, "grab"), (2.578_834, 3.978_834));
-    near(span(DUEL, "anna-hit"), (3.978_834, 4.728_834));
-    near(span(DUEL, "ben-falls"), (4.328_834, 5.828_834));
+    near(span(DUEL, "anna-walk"), (0.0, 2.579_440));
+    near(span(DUEL, "grab"), (2.579_440, 3.979_440));
+    near(span(DUEL, "anna-hit"), (3.979_440, 4.729_440));
+    near(span(DUEL, "ben-falls"), (4.329_440, 5.829_440));
     let (script, schedule) = scheduled(DUEL);
     let end = (0..script.actions().len()).find(|&action| script.element(action).row.name == "title").unwrap();
-    near((schedule.times()[end].begin.seconds(), schedule.length().seconds()), (5.828_834, 7.828_834));
+    near((schedule.times()[end].begin.seconds(), schedule.length().seconds()), (5.829_440, 7.829_440));
     // Shots: the first to the second, the second to the third, the third to the end of the scene.
     let shots: Vec<(f64, f64)> = (0..script.actions().len())
         .filter(|&action| script.element(action).row.name == "shot")
         .map(|action| (schedule.times()[action].begin.seconds(), schedule.times()[action].end.seconds()))
         .collect();
     for (found, expected) in
-        shots.into_iter().zip([(0.0, 2.678_834), (2.678_834, 4.728_834), (4.728_834, 7.828_834)])
+        shots.into_iter().zip([(0.0, 2.679_440), (2.679_440, 4.729_440), (4.729_440, 7.829_440)])
     {
         near(found, expected);
     }
@@ -108,7 +108,7 @@ fn a_container_with_a_duration_stops_what_is_in_it_but_references_mean_the_end_b
     let (script, schedule) = scheduled(&text);
     let of = |id: &str| schedule.times()[script.action_called(id).unwrap()];
     assert_eq!((of("f").end.seconds(), of("f").stop.seconds()), (1.5, 1.0));
-    // What would begin after the end of its container takes no time.
+    // An action that would begin after the end of its container takes no time.
     assert_eq!((of("s").begin.seconds(), of("s").stop.seconds()), (1.5, 1.5));
     assert_eq!((of("t").begin.seconds(), of("t").stop.seconds()), (1.5, 2.5));
 }
@@ -137,7 +137,7 @@ fn an_end_before_its_begin_takes_no_time_and_is_noted() {
     let times = schedule.times()[script.action_called("b").unwrap()];
     assert_eq!((times.begin.seconds(), times.end.seconds(), times.stop.seconds()), (2.0, 2.0, 2.0));
     assert_eq!(
-        told(schedule.notes()),
+        listed(schedule.notes()),
         "scene.xml:3:51: this end is 1.000 s before the begin, so <wait> takes no time"
     );
 }
@@ -149,7 +149,7 @@ fn a_cycle_names_every_action_in_it_with_its_line() {
     );
     let script = StageScript::read(text).unwrap();
     let errors = resolve(&script, &[]).unwrap_err();
-    assert_eq!(errors.len(), 1, "{}", told(&errors));
+    assert_eq!(errors.len(), 1, "{}", listed(&errors));
     let message = &errors[0].message;
     for name in ["<wait id=\"a\"> (line 4)", "<wait id=\"b\"> (line 5)", "<wait id=\"c\"> (line 6)"] {
         assert!(message.contains(name), "{message}");

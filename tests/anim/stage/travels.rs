@@ -79,7 +79,7 @@ fn parts_speeds_and_backward_play_move_by_their_part() {
 }
 
 #[test]
-fn an_action_that_is_cut_hands_over_where_it_is() {
+fn the_next_action_starts_where_one_is_cut() {
     let plan = stepping(
         "<wait id=\"w\" dur=\"1.5\"/><seq><play who=\"anna\" take=\"Step\" repeat=\"fill\"/>\
          <play who=\"anna\" take=\"Step\" begin=\"w.end\"/></seq>",

@@ -10,7 +10,7 @@ use crate::sample::sample_take;
 use crate::stage::time::StageTime;
 use glam::{Mat4, Vec3};
 
-/// A time in which a foot stands.
+/// A time in which a foot is on the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FootContact {
     /// Position of the foot in the list of feet of the model.
@@ -60,7 +60,7 @@ pub(super) fn foot_contacts(
             Some((foot, after(contact.from), after(contact.to)))
         })
         .collect();
-    // A contact that goes on at the start of the next cycle is one contact.
+    // A contact that continues at the start of the next cycle is one contact.
     for foot in 0..feet.len() {
         let first = spans.iter().position(|span| span.0 == foot && span.1 <= StageTime::ZERO);
         let last = spans.iter().position(|span| span.0 == foot && span.2 >= length - near_end);

@@ -14,6 +14,7 @@ use crate::data::{BoneIndex, ModelData, Skeleton};
 use crate::fast::{FastTwoBone, Rig};
 use crate::retarget::normalized_name;
 use crate::sample::rest_pose;
+use foot::hips_above;
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 
@@ -25,6 +26,8 @@ pub struct StageModel {
     feet: Vec<StageFoot>,
     takes: Vec<StageTake>,
     head: Option<BoneIndex>,
+    /// The bone above all feet.
+    hips: Option<BoneIndex>,
     /// Rotation of each bone in the rest pose, to-root space.
     rest_rotations: Vec<Quat>,
 }
@@ -50,8 +53,9 @@ impl StageModel {
         let rest_rotations = rest.iter().map(|matrix| matrix.to_scale_rotation_translation().1).collect();
         let head = skeleton.bones.iter().position(|bone| normalized_name(&bone.name) == "head");
         let rig = Rig::new(skeleton);
+        let hips = hips_above(skeleton, &feet);
         let head = head.map(|bone| bone as BoneIndex);
-        Self { data: Arc::clone(&model), rig, feet, takes, head, rest_rotations }
+        Self { data: Arc::clone(&model), rig, feet, takes, head, hips, rest_rotations }
     }
 
     /// Returns the model.
@@ -87,6 +91,10 @@ impl StageModel {
     /// Returns the bone called head, which looks at things; `None` where there is none.
     pub fn head(&self) -> Option<BoneIndex> {
         self.head
+    }
+
+    pub(in crate::stage) fn hips(&self) -> Option<BoneIndex> {
+        self.hips
     }
 
     /// Returns the axis of a bone that points along `direction` of to-root space in the rest pose.

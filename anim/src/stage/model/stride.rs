@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3};
 /// Frames per second at which takes are measured.
 pub(super) const MEASURE_RATE: f32 = 60.0;
 
-/// Height below which a foot may stand, as a part of the length of a leg.
+/// Height below which a foot may be on the ground, as a part of the length of a leg.
 const NEAR_GROUND: f32 = 0.08;
 
 /// Slowest stride in lengths of a leg per second: less is no walk.

@@ -40,7 +40,7 @@ impl StageTake {
             Some(motion) => Stride::of_motion(motion),
             None => stride_of(skeleton, take, feet, leg),
         };
-        // The take as it moves through the scene: only there do feet stand still.
+        // The take as it moves through the scene: only there are feet still.
         let moving = match (&motion, &stride) {
             (None, Some(stride)) => put_back(take, skeleton, &stride.motion(hips(skeleton), take)).ok(),
             (Some(_), _) | (None, None) => None,
@@ -100,7 +100,7 @@ impl StageTake {
     }
 }
 
-/// Returns the bone that stands for the place of the figure.
+/// Returns the bone that represents the place of the figure.
 fn hips(skeleton: &Skeleton) -> BoneIndex {
     guess_hips(skeleton).unwrap_or(0)
 }

@@ -21,8 +21,8 @@ pub(super) struct PlayClock {
 }
 
 impl PlayClock {
-    /// Returns the number of completed repetitions and the time since the start of the current one, in seconds of the take, `after` the
-    /// begin of the action.
+    /// Returns the number of completed repetitions and the time since the start of the current one, in the take, for a time
+    /// `after` the start of the action.
     ///
     /// Exact: the remainder is one of whole ticks, however long the action is.
     fn split(&self, after: StageTime) -> (u64, StageTime) {
@@ -53,7 +53,7 @@ impl PlayClock {
         if self.speed.is_negative() { self.part[1] - rest } else { self.part[0] + rest }
     }
 
-    /// Returns how far the take has moved the role, in its own space at the begin and in lengths of the model.
+    /// Returns how far the take has moved the role, in its own space at the start and in lengths of the model.
     pub(super) fn movement(&self, take: &StageTake, after: StageTime) -> Placement {
         let Some(motion) = &take.motion else { return Placement::default() };
         let (loops, rest) = self.split(after);

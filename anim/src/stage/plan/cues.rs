@@ -35,7 +35,7 @@ pub struct SoundCue {
 }
 
 impl SoundCue {
-    /// Returns the time in the sound; `None` where it is not heard.
+    /// Returns the time in the sound; `None` where it does not play.
     pub(super) fn time(&self, time: StageTime) -> Option<StageTime> {
         if time < self.span.begin || time >= self.span.stop {
             return None;

@@ -2,7 +2,7 @@
 
 use super::StagePlan;
 use super::cameras::camera;
-use super::feet::{RoleSpace, keep_feet};
+use super::feet::{RoleSpace, WalkState, keep_feet};
 use super::holds::{HoldKind, RigidPlace, fallen};
 use super::places::MotionKind;
 use super::poses::pose_role;
@@ -13,7 +13,7 @@ use crate::fast::matrix::{mat4, transform_point};
 use crate::fast::to_root;
 use crate::ik::{LookAt, look_at};
 use crate::stage::ease::smooth;
-use crate::stage::scene::{HeardSound, ShownTitle, StageScene, StageScratch, ThingState};
+use crate::stage::scene::{PlayingSound, ShownTitle, StageScene, StageScratch, ThingState};
 use crate::stage::time::StageTime;
 use glam::{DVec3, Vec3};
 
@@ -34,7 +34,7 @@ pub(super) fn evaluate(plan: &StagePlan, time: StageTime, scene: &mut StageScene
     for thing in 0..plan.things.len() {
         look(plan, thing, time, scene);
     }
-    // What is held follows the hands as they are now.
+    // Held things follow the hands as they are now.
     for &thing in plan.order.iter().filter(|&&thing| !plan.things[thing].holds.is_empty()) {
         let place = place_of(plan, thing, time, &scene.things, plan.things[thing].holds.len(), MOST_FADES);
         scene.things[thing].transform = transform(&place, plan.things[thing].scale);
@@ -49,7 +49,7 @@ pub(super) fn evaluate(plan: &StagePlan, time: StageTime, scene: &mut StageScene
     scene.sounds.clear();
     scene.sounds.extend(plan.sounds.iter().enumerate().filter_map(|(sound, cue)| {
         let seconds = cue.time(time)?.seconds();
-        Some(HeardSound { sound, seconds, gain: (cue.gain * cue.span.weight(time)) as f32 })
+        Some(PlayingSound { sound, seconds, gain: (cue.gain * cue.span.weight(time)) as f32 })
     }));
 }
 
@@ -168,9 +168,7 @@ fn pose(plan: &StagePlan, thing: usize, time: StageTime, scene: &mut StageScene)
     let Some((cue, share)) = walking(planned, time) else { return };
     let place = rigid(transform);
     let space = RoleSpace { position: place.position, rotation: place.rotation, scale: planned.scale };
-    if keep_feet(model, &planned.places, cue, share, time, space, &state.to_root, &mut state.pose) {
-        to_root(plan.level, model.rig(), state.pose.blocks(), &mut state.to_root);
-    }
+    keep_feet(plan.level, model, &planned.places, WalkState { cue, share, time }, space, state);
 }
 
 /// Returns the motion on a path whose feet are kept at `time`, and its share of the pose.
@@ -229,7 +227,7 @@ fn look(plan: &StagePlan, thing: usize, time: StageTime, scene: &mut StageScene)
     }
 }
 
-/// Angles from straight ahead, radians: up to the first a role looks, from the second on it does not, as what it looks at is behind it.
+/// Angles from straight ahead, radians: up to the first a role looks, from the second on it does not.
 const FIELD: [f32; 2] = [1.92, 2.62];
 
 /// Writes what a light or an effect is at `time`.

@@ -12,7 +12,7 @@ pub(super) struct ActiveSpan {
     pub(super) stop: StageTime,
     pub(super) fade_in: StageTime,
     pub(super) fade_out: StageTime,
-    /// Whether it lets go at its stop; otherwise it holds its last state.
+    /// Whether it is released at its stop; otherwise it holds its last state.
     pub(super) is_released: bool,
 }
 
@@ -36,7 +36,7 @@ impl ActiveSpan {
         Self { action, begin, stop, fade_in, fade_out, is_released }
     }
 
-    /// Returns the weight at `time`: 0 before the begin and, if it is released, from the stop on.
+    /// Returns the weight at `time`: 0 before the start and, if it is released, from the stop on.
     pub(super) fn weight(&self, time: StageTime) -> f64 {
         if time < self.begin || (self.is_released && time >= self.stop) {
             return 0.0;
@@ -48,7 +48,7 @@ impl ActiveSpan {
         if self.is_released { fading_in * share(self.stop - time, self.fade_out) } else { fading_in }
     }
 
-    /// Returns the time since the begin; that at the stop after it.
+    /// Returns the time since the start; that at the stop after it.
     pub(super) fn after(&self, time: StageTime) -> StageTime {
         time.min(self.stop) - self.begin
     }

@@ -1,22 +1,25 @@
-//! Feet that stay where they are while they stand, on a path.
+//! Feet that stay where they are while they are on the ground, on a path.
 //!
-//! A take on a path fits along the path, but not across it: where the path bends, the figure turns about a foot that stands. So a foot in
+//! A take on a path fits along the path, but not across it: where the path bends, the figure turns about a foot on the ground. So a foot in
 //! contact is held by two-bone IK at one point of the scene, its *anchor*: where it is in the middle of the contact. Before and after a
 //! contact the correction fades, as in [`crate::contact::lock_contacts`]. The anchor follows from the path alone, so any time can be asked
 //! for first.
 
 use super::follow::{PathFollower, PathStride};
 use super::places::{MotionKind, PlaceLane};
-use crate::fast::{Pose, RootPoses, matrix, two_bone};
+use crate::data::Transform;
+use crate::fast::simd::SimdLevel;
+use crate::fast::{FastTwoBone, RootPoses, matrix, to_root, two_bone};
 use crate::stage::ease::smooth;
 use crate::stage::model::{FootContact, StageModel};
+use crate::stage::scene::ThingPose;
 use crate::stage::time::StageTime;
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec3, Mat4, Vec3};
 
 /// Seconds of the take over which a correction fades before and after a contact.
 const EASE: f64 = 0.1;
 
-/// Where a role is, for conversion between to-root space and the scene.
+/// Place and size of a role, for conversion between to-root space and the scene.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RoleSpace {
     pub(super) position: DVec3,
@@ -34,33 +37,80 @@ impl RoleSpace {
     }
 }
 
-/// Holds the feet of a role that follows a path. Returns whether the pose has changed.
-#[allow(clippy::too_many_arguments, reason = "inputs of one step of a larger evaluation")]
+/// Number of feet that are held; further ones are free.
+const MOST_FEET: usize = 8;
+
+/// Largest distance by which hips are lowered, as a part of the length of a leg.
+const LOWERED: f32 = 0.15;
+
+/// A walk at a time: the motion, and the share of the pose that its take has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WalkState {
+    pub(super) cue: usize,
+    pub(super) share: f32,
+    pub(super) time: StageTime,
+}
+
+/// Holds the feet of a role that follows a path, and computes its matrices. Where a leg is too short for that, the hips are lowered first.
 pub(super) fn keep_feet(
+    level: SimdLevel,
     model: &StageModel,
     places: &PlaceLane,
-    cue: usize,
-    share: f32,
-    time: StageTime,
+    walk: WalkState,
     space: RoleSpace,
-    to_root: &RootPoses,
-    pose: &mut Pose,
-) -> bool {
-    let place = &places.cues[cue];
-    let MotionKind::Follow(follower) = &place.kind else { return false };
-    let Some(stride) = &follower.stride else { return false };
-    let standing = StandingFeet { places, cue, follower, stride, scale: space.scale };
-    let phase = follower.phase(time.min(place.stop) - place.begin);
-    let mut is_changed = false;
-    for (index, foot) in model.feet().iter().enumerate() {
-        let now = matrix::transform_point(to_root.get(foot.bone as usize), glam::Vec3::ZERO).as_dvec3();
-        let now = space.to_scene(now);
-        let Some(target) = standing.target(index, phase, now) else { continue };
-        let mut limb = foot.limb;
-        limb.weight = share;
-        is_changed |= two_bone(&limb, space.from_scene(target).as_vec3(), to_root, pose);
+    state: &mut ThingPose,
+) {
+    let place = &places.cues[walk.cue];
+    let MotionKind::Follow(follower) = &place.kind else { return };
+    let Some(stride) = &follower.stride else { return };
+    let standing = StandingFeet { places, cue: walk.cue, follower, stride, scale: space.scale };
+    let phase = follower.phase(walk.time.min(place.stop) - place.begin);
+    let mut targets: [Option<Vec3>; MOST_FEET] = [None; MOST_FEET];
+    for (index, (foot, target)) in model.feet().iter().zip(&mut targets).enumerate() {
+        let now = space.to_scene(joint(&state.to_root, foot.bone).as_dvec3());
+        *target = standing.target(index, phase, now).map(|target| space.from_scene(target).as_vec3());
     }
-    is_changed
+    if targets.iter().all(Option::is_none) {
+        return;
+    }
+    let legs = || model.feet().iter().zip(targets).filter_map(|(foot, target)| Some((foot, target?)));
+    let lower = legs().map(|(foot, target)| missing(&foot.limb, target, &state.to_root)).fold(0.0, f32::max);
+    if lower > 0.0
+        && let Some(hips) = model.hips()
+    {
+        lower_hips(model, hips, lower * walk.share, state);
+        to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
+    }
+    for (foot, target) in legs() {
+        two_bone(&FastTwoBone { weight: walk.share, ..foot.limb }, target, &state.to_root, &mut state.pose);
+    }
+    to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
+}
+
+/// Returns the origin of a bone, to-root space.
+fn joint(matrices: &RootPoses, bone: u32) -> Vec3 {
+    matrix::transform_point(matrices.get(bone as usize), Vec3::ZERO)
+}
+
+/// Returns the distance by which the hips have to be lowered so that a leg reaches its target; 0 where it does, or cannot.
+fn missing(limb: &FastTwoBone, target: Vec3, matrices: &RootPoses) -> f32 {
+    let [root, middle, end] = [limb.root, limb.middle, limb.end].map(|bone| joint(matrices, bone));
+    // Slightly bent, as a straight leg has no direction for its knee.
+    let length = 0.999 * (root.distance(middle) + middle.distance(end));
+    let way = root - target;
+    let height = (length * length - way.x * way.x - way.z * way.z).max(0.0).sqrt();
+    let lower = way.y - height;
+    if lower > 0.0 { lower.min(LOWERED * length) } else { 0.0 }
+}
+
+/// Moves the hips down, to-root space.
+fn lower_hips(model: &StageModel, hips: u32, lower: f32, state: &mut ThingPose) {
+    let parent = model.rig().parent(hips as usize);
+    let above = parent.map_or(Mat4::IDENTITY, |parent| matrix::mat4(state.to_root.get(parent)));
+    let moved = above.inverse().transform_vector3(Vec3::NEG_Y * lower);
+    if let Some(pose) = state.pose.get(hips as usize).filter(|_| moved.is_finite()) {
+        state.pose.set(hips as usize, Transform { translation: pose.translation + moved, ..pose });
+    }
 }
 
 struct StandingFeet<'a> {

@@ -1,7 +1,7 @@
 //! Movement along a path: how far one is at which time, and at which time of the take.
 //!
 //! A take on the way is played by distance: its clock runs so that the distance of its stride is the distance on the path. So its feet fit at
-//! any speed. With `Φ` the time of the take since the begin, `C` the length of a cycle, `D` its distance and `m(τ)` the distance within it:
+//! any speed. With `Φ` the time of the take since the start, `C` the length of a cycle, `D` its distance and `m(τ)` the distance within it:
 //!
 //! ```text
 //! Φ(t) = ease(t / T) · Φ_end              travel(Φ) = ⌊Φ / C⌋ D + m(Φ mod C)            travel(Φ_end) = length of the path
@@ -123,19 +123,19 @@ impl PathFollower {
         if self.is_endless { x.max(0.0) } else { self.ease.at(x) }
     }
 
-    /// Returns the time of the take in seconds since the begin; 0 without a take.
+    /// Returns the time of the take in seconds since the start; 0 without a take.
     pub(super) fn phase(&self, after: StageTime) -> f64 {
         self.progress(after) * self.phase_end
     }
 
-    /// Returns the time after the begin at which the take has reached `phase`, clamped to the way.
+    /// Returns the time after the start at which the take has reached `phase`, clamped to the way.
     pub(super) fn after_phase(&self, phase: f64) -> StageTime {
         let share = if self.phase_end > 0.0 { phase / self.phase_end } else { 0.0 };
         let x = if self.is_endless { share.max(0.0) } else { self.ease.inverse(share) };
         StageTime::from_seconds(x * self.total.ticks() as f64 / TICKS_PER_SECOND as f64)
     }
 
-    /// Returns the placement `after` the begin; `fallback` is the direction where the path has none.
+    /// Returns the placement `after` the start; `fallback` is the direction where the path has none.
     pub(super) fn placement(&self, after: StageTime, fallback: f64) -> Placement {
         let progress = self.progress(after);
         let (distance, aside, forward) = match &self.stride {
@@ -167,7 +167,7 @@ impl PathFollower {
 }
 
 impl PathFollower {
-    /// Returns the time in the take, after its start, `after` the begin.
+    /// Returns the time in the take, after its start, `after` the start.
     pub(super) fn take_time(&self, after: StageTime) -> StageTime {
         let Some(stride) = &self.stride else { return StageTime::ZERO };
         let phase = self.phase(after);

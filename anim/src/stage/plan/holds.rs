@@ -1,4 +1,4 @@
-//! Things that others hold: attached, handed over, let go.
+//! Things that others hold: attached, handed over, detached.
 
 use super::spot::StageSpot;
 use crate::stage::time::StageTime;
@@ -45,7 +45,7 @@ pub(super) enum HoldKind {
     },
     /// No one holds it.
     Detach {
-        /// Where it was let go; `None` until that is computed.
+        /// The place where it was detached; `None` until that is computed.
         from: Option<RigidPlace>,
         /// Whether it falls to the ground.
         falls: bool,

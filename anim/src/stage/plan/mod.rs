@@ -85,7 +85,7 @@ impl StagePlan {
             Ok(order) => plan.order = order,
             Err(things) => return Err(plan.held_in_a_loop(script, &things)),
         }
-        plan.let_go();
+        plan.detach_places();
         Ok(plan)
     }
 
@@ -100,8 +100,8 @@ impl StagePlan {
         found.err().unwrap_or_default()
     }
 
-    /// Computes where each thing is let go, in the order of time.
-    fn let_go(&mut self) {
+    /// Computes the place where each thing is detached, in the order of time.
+    fn detach_places(&mut self) {
         let mut all: Vec<(StageTime, usize, usize, usize)> = Vec::new();
         for (thing, planned) in self.things.iter().enumerate() {
             for (at, hold) in planned.holds.iter().enumerate() {

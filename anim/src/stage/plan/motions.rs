@@ -1,6 +1,6 @@
 //! Motions of things from the actions of a script, and the lengths that follow from them.
 //!
-//! The length of a `move` to a place follows from where the role stands when it begins, which follows from the times of the motions before.
+//! The length of a `move` to a place follows from the place of the role when it begins, which follows from the times of the motions before.
 //! So times and places are computed in turn until they agree. The first guess is where the motion before in the text ends, which is usually
 //! right already.
 
@@ -25,7 +25,7 @@ use std::sync::Arc;
 pub(super) struct BoundAction {
     pub(super) who: Option<usize>,
     pub(super) take: Option<(usize, Arc<StageModel>)>,
-    /// Where it goes, looks or attaches to.
+    /// The target of a way, a look or an attachment.
     pub(super) spot: Option<StageSpot>,
 }
 

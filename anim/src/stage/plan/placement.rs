@@ -1,4 +1,4 @@
-//! Where a thing stands: a position and a direction about the vertical.
+//! The placement of a thing: a position and a direction about the vertical.
 
 use crate::stage::ease::smooth;
 use crate::trig::rotation_about;

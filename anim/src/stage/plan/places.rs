@@ -1,6 +1,6 @@
 //! The places of one thing over time.
 //!
-//! Position and direction are two channels. For each, the action that began last decides, and goes on doing so after its end: a role
+//! Position and direction are two channels. For each, the action that began last decides, and continues to do so after its end: a role
 //! stays where its last motion left it. What begins later starts there, so the start of every motion is computed once, in the order of time,
 //! and any time is computed without the ones before it.
 
@@ -57,7 +57,7 @@ pub(super) struct PlaceCue {
     /// Whether the direction before counts again after the stop.
     pub(super) is_released: bool,
     pub(super) kind: MotionKind,
-    /// Where the thing is at the begin.
+    /// The placement of the thing at the start.
     pub(super) start: Placement,
 }
 
@@ -117,7 +117,7 @@ const MOST_FADES: usize = 4;
 /// All motions of a thing, in the order of their begins.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PlaceLane {
-    /// Where it is before all of them.
+    /// The placement before all of them.
     pub(super) base: Placement,
     pub(super) cues: Vec<PlaceCue>,
 }
@@ -158,7 +158,7 @@ impl PlaceLane {
         self.cues.push(PlaceCue { start, ..cue });
     }
 
-    /// Returns the begin of the last motion that moves the thing and has begun, with its action.
+    /// Returns when the last motion that moves the thing has begun, with its action.
     pub(super) fn last_begin(&self, time: StageTime) -> Option<(StageTime, usize)> {
         let begun = self.cues.partition_point(|cue| cue.begin <= time);
         self.cues[..begun].iter().rfind(|cue| cue.moves()).map(|cue| (cue.begin, cue.action))

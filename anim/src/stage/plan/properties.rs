@@ -16,7 +16,7 @@ pub(super) struct PropertyCue {
     pub(super) ease: StageEase,
     pub(super) is_released: bool,
     pub(super) to: PropertyNumbers,
-    /// The value at the begin.
+    /// The value at the start.
     pub(super) start: PropertyNumbers,
 }
 

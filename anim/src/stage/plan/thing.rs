@@ -39,7 +39,7 @@ pub struct PlannedThing {
     pub(super) holds: Vec<HoldCue>,
     pub(super) properties: Vec<PropertyLane>,
     pub(super) runs: Vec<RunCue>,
-    /// What a camera looks at when no action says otherwise.
+    /// The target of a camera unless an action has another one.
     pub(super) aim: Option<StageSpot>,
     pub(super) focus: FocusTarget,
 }

@@ -13,7 +13,7 @@ pub(super) enum TimeNode {
     Shots,
 }
 
-/// What a script's rules say about the times of its actions.
+/// The rules for the times of the actions of a script.
 pub(super) struct TimeGraph<'a> {
     script: &'a StageScript,
     /// The actions that are shots.
@@ -50,7 +50,7 @@ impl<'a> TimeGraph<'a> {
         }
     }
 
-    /// Returns what the begin of an action depends on; `None` for the script.
+    /// Returns what the start of an action depends on; `None` for the script.
     fn before(&self, action: usize) -> Option<TimeNode> {
         match self.script.actions()[action].begin {
             Some(moment) => self.moment(action, moment),
@@ -78,7 +78,7 @@ impl<'a> TimeGraph<'a> {
         }
     }
 
-    /// Returns what the end of an action depends on, besides its begin (rules 2 to 4).
+    /// Returns what the end of an action depends on, apart from its start (rules 2 to 4).
     fn before_end(&self, index: usize, at: usize) -> Option<TimeNode> {
         let action = &self.script.actions()[index];
         match (action.end, action.dur) {
@@ -99,8 +99,8 @@ impl<'a> TimeGraph<'a> {
         }
     }
 
-    /// Returns the end of a passive action that is no shot: the begin of the next one in a `seq` if that has one of its own, else the
-    /// end of the nearest `par`.
+    /// Returns the end of a passive action that is no shot: the start of the next one in a `seq` if that has one of its own, otherwise
+    /// the end of the nearest `par`.
     pub(super) fn passive_end(&self, index: usize) -> TimeNode {
         self.next_in_seq(index)
             .filter(|&next| self.script.actions()[next].begin.is_some())

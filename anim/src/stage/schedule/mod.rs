@@ -16,7 +16,7 @@ use crate::stage::time::StageTime;
 pub struct ActionTimes {
     /// Its begin.
     pub begin: StageTime,
-    /// Its end by the rules, never before its begin: what references to it mean.
+    /// Its end by the rules, never before its start: what references to it mean.
     pub end: StageTime,
     /// When it stops: its end, or the earlier end of a container around it that has an end or a duration of its own.
     pub stop: StageTime,

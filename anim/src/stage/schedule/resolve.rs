@@ -110,7 +110,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Returns the time from the begin of a play to a time in its take.
+    /// Returns the time from the start of a play to a time in its take.
     fn point(&self, play: usize, time: StageTime) -> StageTime {
         let element = self.script.element(play);
         let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
@@ -160,7 +160,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Returns the begin of the shot after a shot; `None` for the last one and for other actions.
+    /// Returns the start of the shot after a shot; `None` for the last one and for other actions.
     fn next_shot(&self, index: usize, begin: StageTime) -> Option<StageTime> {
         self.graph.shots.binary_search(&index).ok()?;
         let after = self.shots.partition_point(|&shot| shot <= (begin, index));

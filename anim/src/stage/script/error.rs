@@ -11,9 +11,9 @@ pub struct ScriptError {
     pub range: Range<usize>,
     /// Line and column of their start.
     pub place: TextPlace,
-    /// What is wrong, and what was expected.
+    /// The mistake, and what was expected.
     pub message: String,
-    /// What may have been meant, or the possible names; empty where there is nothing to suggest.
+    /// The likely meaning, or the possible names; empty where there is nothing to suggest.
     pub help: String,
 }
 

@@ -41,7 +41,7 @@ pub enum StageRepeat {
 pub enum ActionMoment {
     /// A time after the usual begin.
     Offset(StageTime),
-    /// A time after the begin of an action.
+    /// A time after the start of an action.
     Begin(usize, StageTime),
     /// A time after the end of an action.
     End(usize, StageTime),

@@ -99,7 +99,7 @@ fn xml_message(error: &roxmltree::Error) -> String {
         }
         roxmltree::Error::NoRootNode => "there is no element; <script version=\"1\"> is expected".to_owned(),
         other => {
-            // The place is told in front of the message.
+            // The place is in front of the message.
             let text = other.to_string();
             text.split(" at ").next().unwrap_or(&text).to_owned()
         }

@@ -30,7 +30,7 @@ pub struct AttributeRow {
     pub required: bool,
     /// The value that counts where it is absent; empty where there is none.
     pub default: &'static str,
-    /// What it means, in one sentence.
+    /// Its meaning, in one sentence.
     pub help: &'static str,
 }
 
@@ -49,7 +49,7 @@ pub struct ElementRow {
     pub who: &'static [&'static str],
     /// The parts that it may contain.
     pub parts: &'static [&'static ElementRow],
-    /// What it is, in one sentence.
+    /// Its purpose, in one sentence.
     pub help: &'static str,
 }
 

@@ -24,7 +24,7 @@ pub fn schema() -> String {
     out
 }
 
-/// What other namespaces may add.
+/// Definitions of what other namespaces may add.
 const FOREIGN: &str = concat!(
     "  <define name=\"foreign-attributes\"><zeroOrMore><attribute>\n",
     "    <anyName><except><nsName ns=\"\"/></except></anyName>\n",

@@ -6,7 +6,7 @@ use crate::stage::time::{Decimal, StageRate, StageTime, parse_time};
 /// A kind of value.
 #[derive(Clone, Copy, Debug)]
 pub struct ValueRow {
-    /// What is expected, for messages and help, such as "a time such as 1.5, 250ms or 36f".
+    /// The expected value, for messages and help, such as "a time such as 1.5, 250ms or 36f".
     pub expected: &'static str,
     /// The regular expression of XML Schema that the schema has for it; empty for any text.
     pub pattern: &'static str,
