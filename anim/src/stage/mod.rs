@@ -108,6 +108,7 @@ mod plan;
 mod scene;
 pub mod schedule;
 pub mod script;
+pub mod splice;
 pub mod table;
 pub mod time;
 

@@ -10,6 +10,7 @@ mod random_scripts;
 mod scenes;
 mod schema;
 mod spans;
+mod splices;
 mod times;
 mod travels;
 

@@ -6,11 +6,13 @@
 mod actions;
 mod cast;
 mod property;
+mod reference;
 mod row;
 mod schema;
 mod value;
 
 pub use property::{PROPERTIES, PropertyRow, PropertyType, property};
+pub use reference::ReferenceKind;
 pub use row::{AttributeRow, ElementGroup, ElementRow};
 pub use schema::schema;
 pub use value::ValueRow;
