@@ -127,9 +127,15 @@ fn a_deleted_element_takes_its_lines_and_comments_only_where_asked_for() {
     let rail = |comments| changed(DUEL, |script| delete(script.tree(), with_id(script, "rail"), comments));
     assert!(rail(AttachedComments::Stay).contains("<!-- drawn with"));
     assert!(!rail(AttachedComments::Follow).contains("<!-- drawn with"));
-    let far = "<script version=\"1\">\n<!-- far -->\n\n<!-- two\n lines --><!-- b -->\n<wait/>\n</script>";
-    let far = changed(far, |script| delete(script.tree(), 1, AttachedComments::Follow));
-    assert_eq!(far, "<script version=\"1\">\n<!-- far -->\n\n<!-- two\n lines --><!-- b -->\n</script>");
+    let cut = |above: &str| {
+        let text = format!("<script version=\"1\">\n{above}<wait/>\n</script>");
+        let new = changed(&text, |script| delete(script.tree(), 1, AttachedComments::Follow));
+        new["<script version=\"1\">\n".len()..new.len() - "</script>".len()].to_owned()
+    };
+    assert_eq!(cut("<!-- far -->\n\n<!-- near -->\n"), "<!-- far -->\n\n", "an empty line separates");
+    assert_eq!(cut("<!-- two\n lines -->\n  <!-- one -->\n"), "");
+    assert_eq!(cut("<!-- two\n lines --><!-- b -->\n"), "<!-- two\n lines --><!-- b -->\n", "two in a line");
+    assert_eq!(cut("<par/><!-- of par -->\n"), "<par/><!-- of par -->\n");
 }
 
 #[test]
