@@ -58,8 +58,7 @@ pub(super) fn comments_above(text: &str, start: usize) -> usize {
     while let Some(above) = text.get(..first).filter(|above| above.ends_with('\n')) {
         let line = above.trim_end_matches(['\n', '\r']);
         // An empty line separates.
-        let is_near =
-            above.len() - line.len() <= 2 && above.matches('\n').count() > line.matches('\n').count();
+        let is_near = above[line.len()..].matches('\n').count() == 1;
         let line = line.trim_end_matches([' ', '\t']);
         let Some(open) = line.rfind("<!--").filter(|_| is_near && line.ends_with("-->")) else { break };
         // The comment that ends there must be the one that begins there.
