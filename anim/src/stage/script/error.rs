@@ -18,6 +18,12 @@ pub struct ScriptError {
 }
 
 impl ScriptError {
+    /// Creates an error at some bytes of `text`, for what is found outside of this module, such as a missing file.
+    pub fn at(text: &str, range: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> Self {
+        let place = LineIndex::new(&text.into()).place(range.start);
+        Self { range, place, message: message.into(), help: help.into() }
+    }
+
     /// Returns `FILE:LINE:COLUMN: MESSAGE`, with the help after a semicolon.
     pub fn in_file(&self, file: &str) -> String {
         format!("{file}:{self}")
