@@ -66,6 +66,7 @@
 //! | root motion; a root bone for it | [`motion`], [`root_bone`] |
 //! | contacts of feet; loops; defects of a take; a take at its frames | [`contact`], [`loops`], [`lint`], [`frames`] |
 //! | play a take on another skeleton | [`retarget`] |
+//! | scenes of several characters, driven by a script in XML | `stage` (feature `stage`) |
 //! | change many keys by the same offset, with falloff | [`offset`] |
 //! | remove redundant keys | [`reduce`] |
 //! | in-betweens: blend keys with their neighbors, smooth curves | [`inbetween`] |
@@ -143,6 +144,9 @@ pub mod root_bone;
 pub mod sample;
 #[doc(alias("skinning"))]
 pub mod skin;
+#[cfg(feature = "stage")]
+#[doc(alias("sequencer", "timeline", "SMIL", "screenplay"))]
+pub mod stage;
 #[doc(alias("trigonometry", "axis-angle"))]
 #[doc(alias("handle", "Catmull-Rom", "auto clamped"))]
 pub mod tangents;

@@ -13,6 +13,7 @@
 //! | `sketch` | the method of a prototype, which does less; see [`sketch`] |
 //! | `lockstep` | its other method for crowds, eight characters at once |
 //! | `tree`, `boxes` | hits by the tree and bounds by the boxes of bones; `open` tests every triangle and vertex |
+//! | `stage` | the stage, on the fast path |
 //! | `ozz`, `ozz/every_key`, `ACL` | ozz-animation and ACL, if `DRAGONFLY_RIVALS` is set; see [`rivals`] |
 //!
 //! | task | unit |
@@ -25,6 +26,7 @@
 //! | `skin_by_matrix` | the same with normals moved by the matrix and not normalized, as ozz does |
 //! | `pipeline` | a character, from takes to final matrices: one, one that plays two takes, crowds of mixed takes and times |
 //! | `hit` | a ray, point, sphere or pose |
+//! | `frame`, `read`, `resolve` | a role of a scene of the stage ([`stage`]); a script of 10,000 actions |
 //!
 //! A printed line contains nanoseconds per unit (the median, the 99th percentile and the minimum of the rounds) and the
 //! ratio to the sketch, or to the open path where the sketch does not have the task: the median of the ratios of single
@@ -52,6 +54,7 @@ mod record;
 mod report;
 mod rivals;
 mod sketch;
+mod stage;
 
 use arguments::{BenchArguments, BenchMode};
 use case::{BenchCase, baseline_of};
@@ -106,6 +109,7 @@ fn run(arguments: &BenchArguments) -> Result<(), String> {
     let theirs = rivals.as_ref().map_or(Ok(Vec::new()), Rivals::cases)?;
     let mut sections = vec![section(model::bench_rig(), theirs), section(model::fox(), Vec::new())];
     sections.extend(hit::sections());
+    sections.push(stage::section());
     let unknown = arguments.unknown(sections.iter().flat_map(|section| &section.cases), &SIZES);
     if !unknown.is_empty() {
         return Err(format!(

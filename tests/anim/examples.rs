@@ -27,6 +27,8 @@ mod root_motion;
 mod same_animation_other_model;
 #[path = "../../anim/examples/save_and_load.rs"]
 mod save_and_load;
+#[path = "../../anim/examples/stage.rs"]
+mod stage;
 
 #[test]
 fn a_take_is_played() {
@@ -71,6 +73,11 @@ fn the_root_motion_of_a_walk_is_extracted() {
 #[test]
 fn a_take_is_retargeted_to_another_model() {
     same_animation_other_model::main();
+}
+
+#[test]
+fn a_script_is_staged() {
+    stage::main();
 }
 
 #[test]

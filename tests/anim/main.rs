@@ -88,6 +88,7 @@ mod simd;
 mod simd_matrices;
 mod skinning;
 mod soundness;
+mod stage;
 mod support;
 mod takes;
 mod tangents;

@@ -80,6 +80,7 @@ mod retarget_command;
 mod root_bone;
 mod ruler;
 mod saved_pending;
+mod scene_commands;
 mod screen;
 mod second_skeleton;
 mod selection_sets;

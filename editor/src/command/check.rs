@@ -7,6 +7,7 @@ use super::run_command::RunCommand;
 use super::table::count;
 use super::take_lint::{TakeDefect, TakeThresholds, defects};
 use dragonfly_anim::check::{RULES, Severity, check};
+use dragonfly_document::{Cancel, SceneLoadError, is_script, load_scene};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -16,11 +17,12 @@ use std::path::PathBuf;
 #[command(about = about(), long_about = None, after_help = "\
 Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
 Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher, or with --takes, a take has a defect.\n\n\
+The script of a scene (.xml) is checked with the models that it names; findings have line and column.\n\n\
 With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, loop_gap (off), spare_keys and\n\
 outside. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
 \"up\": \"y\", \"floor_height\": 0, \"rate\": 30}; null switches a rule off.\n\n\
 Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json\n  \
-dragonfly check Fox.glb --takes --thresholds lint.json")]
+dragonfly check Fox.glb --takes --thresholds lint.json\n  dragonfly check duel.xml")]
 pub(super) struct CheckArguments {
     #[arg(value_name = "FILE", required = true, help = models_help())]
     files: Vec<PathBuf>,
@@ -95,7 +97,7 @@ impl RunCommand for CheckArguments {
 }
 
 /// The findings in one file.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct CheckReport {
     file: String,
     errors: usize,
@@ -121,6 +123,9 @@ struct FindingRow {
 
 impl CheckReport {
     fn of(file: &std::path::Path, deny: Deny, thresholds: Option<&TakeThresholds>) -> Result<Self, Failure> {
+        if is_script(file) {
+            return Self::of_script(file, deny);
+        }
         let loaded = load_checked(&source(file))?;
         let takes = thresholds.map(|thresholds| defects(&loaded.model.animation, thresholds)).transpose()?;
         let mut report = Self {
@@ -148,6 +153,26 @@ impl CheckReport {
                 text: finding.text,
             };
             report.add(deny, finding.severity, row);
+        }
+        Ok(report)
+    }
+
+    /// Checks the script of a scene with the models that it names. What is wrong with it are findings with line and column.
+    fn of_script(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
+        let (title, errors, notes) = match load_scene(file, &Cancel::default()) {
+            Ok(scene) => (scene.title, Vec::new(), scene.plan.schedule().notes().to_vec()),
+            Err(SceneLoadError::Script { title, errors }) => (title, errors, Vec::new()),
+            Err(error @ (SceneLoadError::File { .. } | SceneLoadError::Cancelled)) => {
+                return Err(error.into());
+            }
+        };
+        let mut report = Self { file: title, ..Self::default() };
+        let errors = errors.into_iter().map(|error| (Severity::Error, error));
+        for (severity, error) in errors.chain(notes.into_iter().map(|note| (Severity::Note, note))) {
+            let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
+            let text = error.message + &help;
+            let place = error.place.to_string();
+            report.add(deny, severity, FindingRow { severity: "", rule: "SCRIPT", place, text });
         }
         Ok(report)
     }

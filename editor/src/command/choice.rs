@@ -3,7 +3,7 @@
 use super::import_options::ImportArguments;
 use super::{Failure, progress::Teller};
 use dragonfly_anim::data::{ModelData, Take};
-use dragonfly_document::{Cancel, LoadedModel, Source, formats, load_model};
+use dragonfly_document::{Cancel, LoadedModel, Source, formats, is_script, load_model};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -30,6 +30,11 @@ pub(super) struct File {
 }
 
 impl File {
+    /// Returns the path if it is one of a scene's script.
+    pub(super) fn script(&self) -> Option<&std::path::Path> {
+        Some(self.path.as_path()).filter(|path| is_script(path))
+    }
+
     /// Loads the model, with progress on stderr if that takes long.
     pub(super) fn load(&self) -> Result<LoadedModel, Failure> {
         load(&source_as(&self.path, &self.import))

@@ -26,6 +26,7 @@ mod quiet;
 mod render;
 mod retarget;
 mod run_command;
+mod scene;
 mod stdio;
 mod table;
 mod take_lint;
@@ -65,6 +66,7 @@ subcommands! {
     Pose => pose::PoseArguments,
     Explain => explain::ExplainArguments,
     Render => render::RenderArguments,
+    Script => scene::ScriptArguments,
     Edit => edit::EditArguments,
     Retarget => retarget::RetargetArguments,
     Convert => convert::ConvertArguments,
@@ -85,6 +87,7 @@ Examples:
                                     print exact poses for other programs
   dragonfly explain Fox.glb --time 0.5 --bone b_Head_05
                                     print every step that leads to the pose of a bone
+  dragonfly script duel.xml         list when each action of a scene begins and ends
   dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb
                                     apply edits without a window; the rest of the file is unchanged
   dragonfly retarget Walk.glb Hero.glb -o Hero2.glb

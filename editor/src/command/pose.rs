@@ -5,6 +5,7 @@ use super::choice::{File, TakeChoice, clamp_time, finite};
 use super::info::named;
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
+use super::scene::{self, RolePoses};
 use super::table::{Side, Table};
 use dragonfly_anim::data::{ModelData, Transform};
 use dragonfly_anim::evaluator::Evaluator;
@@ -20,7 +21,8 @@ use std::sync::Arc;
 Matrices are column-major, for column vectors. `to_root` is bone space to scene space, `final` bind space to\n\
 scene space. The text shows positions, rotations and scales; --json contains everything in full precision.\n\n\
 Examples:\n  dragonfly pose Fox.glb --take Run --time 0.35\n  \
-dragonfly pose Fox.glb --time 0 --time 0.5 --time 1 --vertices 8 --json")]
+dragonfly pose Fox.glb --time 0 --time 0.5 --time 1 --vertices 8 --json\n  \
+dragonfly pose duel.xml --role anna --time 2.5 --json")]
 pub(super) struct PoseArguments {
     #[command(flatten)]
     file: File,
@@ -29,6 +31,9 @@ pub(super) struct PoseArguments {
     /// Time in seconds, clamped to the take; repeat for more poses
     #[arg(long, value_name = "S", required = true, value_parser = finite, allow_negative_numbers = true)]
     time: Vec<f32>,
+    /// Role, prop or another thing of a scene's script, by its id; FILE is the script (.xml)
+    #[arg(long, value_name = "ID", conflicts_with_all = ["take", "vertices"])]
+    role: Option<String>,
     /// Number of vertex positions per primitive [default: all in JSON, none in text]
     #[arg(long, value_name = "N")]
     vertices: Option<usize>,
@@ -39,6 +44,9 @@ pub(super) struct PoseArguments {
 
 impl RunCommand for PoseArguments {
     fn run(self) -> Result<(), Failure> {
+        if let Some(role) = &self.role {
+            return self.role(role);
+        }
         let loaded = self.file.load()?;
         let take = self.take.index(&loaded.title, &loaded.model)?;
         let model = Arc::new(loaded.model);
@@ -67,6 +75,17 @@ impl RunCommand for PoseArguments {
         let take = take.map(|index| TakeName { index, name: model.animation.takes[index].name.clone() });
         let poses = Poses { file: loaded.title, take, poses };
         if self.json { print_json(&poses) } else { print(|out| poses.write(&model, out)) }
+    }
+}
+
+impl PoseArguments {
+    /// Prints the poses of a thing of a scene.
+    fn role(&self, role: &str) -> Result<(), Failure> {
+        let Some(script) = self.file.script() else {
+            return Err(Failure::input("--role", "FILE has to be the script of a scene (.xml)"));
+        };
+        let poses = RolePoses::of(&scene::load(script)?, role, &self.time)?;
+        if self.json { print_json(&poses) } else { print(|out| poses.write(out)) }
     }
 }
 

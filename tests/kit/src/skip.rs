@@ -23,7 +23,7 @@ pub enum TestNeed {
     Models,
     /// Something of the file system or the kernel: loop devices, attributes, immutable files.
     FileSystem,
-    /// A program: python3.
+    /// A program: python3, xmllint.
     Program,
     /// Programs that run jobs of farms: openjd, Slurm.
     Farm,

@@ -1,0 +1,55 @@
+//! Models, drawn lines and sounds that scripts refer to.
+
+use super::model::StageModel;
+use super::time::StageTime;
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The models, lines and sounds that scripts may name, by the text with which scripts name them.
+#[derive(Clone, Debug, Default)]
+pub struct StageAssets {
+    models: BTreeMap<String, Arc<StageModel>>,
+    lines: BTreeMap<String, Arc<[DVec3]>>,
+    sounds: BTreeMap<String, StageTime>,
+}
+
+impl StageAssets {
+    /// Adds a model under the name that the attribute `model` has.
+    pub fn add_model(&mut self, source: impl Into<String>, model: Arc<StageModel>) {
+        self.models.insert(source.into(), model);
+    }
+
+    /// Adds the points of a drawn line, meters, under the name that the attribute `line` has.
+    pub fn add_line(&mut self, source: impl Into<String>, points: impl Into<Arc<[DVec3]>>) {
+        self.lines.insert(source.into(), points.into());
+    }
+
+    /// Adds the length of a sound under the name that the attribute `src` has.
+    pub fn add_sound(&mut self, source: impl Into<String>, length: StageTime) {
+        self.sounds.insert(source.into(), length);
+    }
+
+    /// Returns the model called `source`.
+    pub fn model(&self, source: &str) -> Option<&Arc<StageModel>> {
+        self.models.get(source)
+    }
+
+    /// Returns the line called `source`.
+    pub fn line(&self, source: &str) -> Option<&Arc<[DVec3]>> {
+        self.lines.get(source)
+    }
+
+    /// Returns the length of the sound called `source`; `None` where it is not known.
+    pub fn sound(&self, source: &str) -> Option<StageTime> {
+        self.sounds.get(source).copied()
+    }
+
+    pub(in crate::stage) fn model_names(&self) -> impl Iterator<Item = &str> {
+        self.models.keys().map(String::as_str)
+    }
+
+    pub(in crate::stage) fn line_names(&self) -> impl Iterator<Item = &str> {
+        self.lines.keys().map(String::as_str)
+    }
+}

@@ -1,0 +1,123 @@
+//! Scenes of several roles, driven by a script in XML: which role plays which take, walks where, holds what, and what the camera sees.
+//!
+//! ```
+//! # #[cfg(feature = "gltf")]
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+//! use dragonfly_anim::stage::script::StageScript;
+//! use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
+//! use std::sync::Arc;
+//! # let bytes: &[u8] = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/Fox.glb"));
+//!
+//! let text = r#"<script version="1" fps="24">
+//!   <cast>
+//!     <role id="fox" model="Fox.glb" scale="0.01"/>
+//!     <camera id="wide" at="0 1 6" look="fox"/>
+//!     <path id="aisle" points="0 0 0  2 0 0  3 0 2" curve="smooth"/>
+//!   </cast>
+//!   <seq>
+//!     <move who="fox" path="aisle" take="Walk"/>
+//!     <play id="looks" who="fox" take="Survey" fade-in="0.3"/>
+//!   </seq>
+//!   <title text="The End" begin="looks.end-1" dur="2" fade-in="0.5"/>
+//! </script>"#;
+//!
+//! // Once a model and once a text; errors have lines and columns.
+//! let model = read("Fox.glb", bytes, &NoFiles, &ReadOptions::default())?.model;
+//! let mut assets = StageAssets::default();
+//! assets.add_model("Fox.glb", Arc::new(StageModel::new(Arc::new(model))));
+//! let script = StageScript::read(text).map_err(|errors| errors[0].in_file("scene.xml"))?;
+//! let plan = StagePlan::new(&script, &assets).map_err(|errors| errors[0].in_file("scene.xml"))?;
+//!
+//! // Any frame, in any order: a function of the plan and the frame.
+//! let mut scene = plan.new_scene();
+//! plan.frame(48, &mut scene);
+//! let fox = &scene.things[0];
+//! println!("at {} with {} bones", fox.transform.translation, fox.pose.as_ref().unwrap().pose.bones());
+//! # assert_eq!(scene.time.seconds(), 2.0);
+//! # Ok(())
+//! # }
+//! # #[cfg(not(feature = "gltf"))]
+//! # fn main() {}
+//! ```
+//!
+//! # From text to scene
+//!
+//! | step | type | depends on |
+//! |---|---|---|
+//! | XML with the place of every element and attribute, checked against [`table`] | [`script::ScriptTree`] | the text |
+//! | names resolved | [`script::StageScript`] | the text |
+//! | begins and ends | [`schedule::Schedule`] | the text, lengths of takes and ways |
+//! | channels of every thing | [`StagePlan`] | the text, the models |
+//! | places, poses, camera, lights, effects, titles, sounds | [`StageScene`] | the plan, a time |
+//!
+//! [`LiveStage`] does all of it for a text that someone is writing, and keeps the last plan that worked. [`table::schema`] returns the
+//! vocabulary as a schema in RELAX NG.
+//!
+//! # The vocabulary
+//!
+//! A `<script>` has a `<cast>` of things (`role prop camera light effect path mark`) and then actions. Two of them contain others: `<par>`
+//! begins all at once, `<seq>` one after the other. The script itself is a `par`. The others are `wait play move turn place look attach
+//! detach shot run set change sound title`. Every action may have `id begin end dur`; times are `1.5`, `1.5s`, `250ms`, `36f` (frames)
+//! or `1:05.5`. [`table::ELEMENTS`] has every attribute with its meaning.
+//!
+//! # The rules of time
+//!
+//! 1. *Begin.* In a `seq` an action begins at the end of the one before, in a `par` at the start of the `par`. `begin="2"` is an offset to
+//!    that; `begin="grab.touch-0.5"` replaces it by a moment of another action: its `begin`, its `end`, or an `<at>` of its take. `prev` is
+//!    the action before.
+//! 2. *End.* A `play` lasts as long as its part of the take, divided by its speed; a `move` as its way takes; the others last no time. `repeat`
+//!    multiplies that; `dur` or `end` replaces it. Without a `speed`, `dur` and `end` stretch a `move`; otherwise they cut.
+//! 3. *Passive* is what has no length of its own: `look`, `run`, `shot` and `title` without `dur` or `end`, `repeat="fill"`, and everything
+//!    whose `end` is the end of a container around it. It lasts to the start of the next action in its `seq` if that has a `begin` of its own,
+//!    else to the end of the nearest `par`; a `shot` to the next shot anywhere. It lengthens nothing.
+//! 4. *A container* ends with the last of its actions that is not passive. One with an end of its own stops what is inside at that time;
+//!    references to the end of something inside still mean the end by these rules.
+//! 5. *Who decides.* Of actions on the same channel of a thing, the one that began last decides; of those that began together, the last in
+//!    the text. `fade-in` mixes with what was before and moves nothing in time. After its end an action holds its last state, unless it has
+//!    `fill="release"` or fades out; `look`, layers, titles and effects are released.
+//!
+//! Times are exact ([`time`]), and a time that depends on itself is an error that names every action in the loop.
+//!
+//! # Places and poses
+//!
+//! Position and direction are two channels. `move`, `place`, and takes that travel decide over both, `turn` over the direction; a thing
+//! stays where the last of them left it. What is attached follows its holder until something moves it that began later. On a path a take
+//! is played by distance, at the stride that its feet or its root motion have, and feet in contact are held where they are.
+//!
+//! # Differences to the first design
+//!
+//! The rules are those of the prototype with these changes. An `end` at a container's end counts exactly, with its offset, in place of "the
+//! nearest `par`". A title without a duration is passive; it would never be seen. A container with an end of its own stops what is inside. Points of a take
+//! respect `from` and a negative `speed`. Ids may have `-` before a digit (`scene-1`); only names of moments may not, because `touch-0.5` has
+//! an offset. Ends before begins take no time, with a note. `gap`, for a `move` to a thing, is the distance at which it stops, and `turn`, for `attach`, rotates. `repeat` is an
+//! attribute of `play`, `move` and `sound` alone.
+//!
+//! # Limits
+//!
+//! Texts have at most 8 MB, 500,000 nodes and 64 levels. Document types and entities are refused. Elements and attributes of other namespaces are
+//! kept and ignored.
+
+mod assets;
+mod ease;
+mod live;
+mod model;
+mod moment;
+mod path;
+mod plan;
+mod scene;
+pub mod schedule;
+pub mod script;
+pub mod splice;
+pub mod table;
+pub mod time;
+
+pub use assets::StageAssets;
+pub use ease::StageEase;
+pub use live::LiveStage;
+pub use model::{FootContact, StageFoot, StageModel, StageTake};
+pub use path::{PathSpot, StagePath};
+pub use plan::{Placement, PlannedThing, SoundCue, StagePlan, TitleCue};
+pub use scene::{
+    EffectState, LightState, PlayingSound, ShownTitle, StageCamera, StageScene, ThingPose, ThingState,
+};

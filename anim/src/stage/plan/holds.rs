@@ -1,0 +1,69 @@
+//! Things that others hold: attached, handed over, detached.
+
+use super::spot::StageSpot;
+use crate::stage::time::StageTime;
+use glam::{DQuat, DVec3};
+
+/// Acceleration of what falls, meters per square second.
+const GRAVITY: f64 = 9.81;
+
+/// A position and a rotation in the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RigidPlace {
+    pub(super) position: DVec3,
+    pub(super) rotation: DQuat,
+}
+
+impl RigidPlace {
+    /// Returns this place followed by one in its own space.
+    pub(super) fn then(&self, inner: &Self) -> Self {
+        Self {
+            position: self.position + self.rotation * inner.position,
+            rotation: (self.rotation * inner.rotation).normalize(),
+        }
+    }
+
+    /// Returns the place between this one and `other`.
+    pub(super) fn mixed(&self, other: &Self, weight: f64) -> Self {
+        let to = if self.rotation.dot(other.rotation) < 0.0 { -other.rotation } else { other.rotation };
+        let rotation = (self.rotation * (1.0 - weight) + to * weight).normalize();
+        Self { position: self.position.lerp(other.position, weight), rotation }
+    }
+}
+
+/// What happens to a thing.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum HoldKind {
+    /// Another thing holds it from now on.
+    Attach {
+        /// What holds it.
+        to: StageSpot,
+        /// Its place relative to that.
+        grip: RigidPlace,
+        /// The duration of the way there.
+        fade_in: StageTime,
+    },
+    /// No one holds it.
+    Detach {
+        /// The place where it was detached; `None` until that is computed.
+        from: Option<RigidPlace>,
+        /// Whether it falls to the ground.
+        falls: bool,
+    },
+}
+
+/// An `attach` or `detach`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HoldCue {
+    pub(super) action: usize,
+    pub(super) begin: StageTime,
+    pub(super) kind: HoldKind,
+}
+
+/// Returns the place of what falls for `after`, from `start` to the ground at height 0; what starts below does not move.
+pub(super) fn fallen(start: &RigidPlace, after: StageTime) -> RigidPlace {
+    let seconds = after.seconds();
+    let height = start.position.y;
+    let y = if height > 0.0 { (height - 0.5 * GRAVITY * seconds * seconds).max(0.0) } else { height };
+    RigidPlace { position: DVec3::new(start.position.x, y, start.position.z), ..*start }
+}

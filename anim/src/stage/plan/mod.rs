@@ -1,0 +1,196 @@
+//! A plan: a script, its times, and its models, ready to give the scene at any time.
+
+mod bind;
+mod build;
+mod cameras;
+mod clock;
+mod cues;
+mod evaluate;
+mod fade;
+mod feet;
+mod follow;
+mod holds;
+mod looks;
+mod motions;
+mod placement;
+mod places;
+mod poses;
+mod properties;
+mod spot;
+mod thing;
+
+pub use cues::{SoundCue, TitleCue};
+pub use placement::Placement;
+pub use thing::PlannedThing;
+
+use super::assets::StageAssets;
+use super::scene::{EffectState, LightState, StageScene, StageScratch, ThingPose, ThingState};
+use super::schedule::Schedule;
+use super::script::{ScriptError, StageScript};
+use super::time::{StageRate, StageTime};
+use crate::data::Transform;
+use crate::fast::simd::SimdLevel;
+use build::{PlanBuilder, holding_order};
+use cues::ShotCue;
+use glam::Vec3;
+use holds::HoldKind;
+
+/// A script with its times and models. Never changes, so threads can share it; each needs a [`StageScene`] of its own.
+#[derive(Clone, Debug)]
+pub struct StagePlan {
+    level: SimdLevel,
+    rate: StageRate,
+    schedule: Schedule,
+    things: Vec<PlannedThing>,
+    /// The things, those that hold others first.
+    order: Vec<usize>,
+    shots: Vec<ShotCue>,
+    titles: Vec<TitleCue>,
+    sounds: Vec<SoundCue>,
+}
+
+impl StagePlan {
+    /// Plans `script` with the models of `assets`, for the best instructions of this machine.
+    ///
+    /// # Errors
+    ///
+    /// What the script names and the models do not have, ways without a duration, times that depend on themselves, things that hold each
+    /// other: all with their places.
+    pub fn new(script: &StageScript, assets: &StageAssets) -> Result<Self, Vec<ScriptError>> {
+        Self::at_level(script, assets, SimdLevel::best())
+    }
+
+    /// As [`Self::new`], for given instructions: with the portable ones, scenes have the same bits on every machine.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn at_level(
+        script: &StageScript,
+        assets: &StageAssets,
+        level: SimdLevel,
+    ) -> Result<Self, Vec<ScriptError>> {
+        let builder = PlanBuilder::build(script, assets)?;
+        let mut plan = Self {
+            level,
+            rate: script.rate(),
+            schedule: builder.schedule,
+            things: builder.binder.things,
+            order: Vec::new(),
+            shots: builder.shots,
+            titles: builder.titles,
+            sounds: builder.sounds,
+        };
+        match holding_order(&plan.things) {
+            Ok(order) => plan.order = order,
+            Err(things) => return Err(plan.held_in_a_loop(script, &things)),
+        }
+        plan.detach_places();
+        Ok(plan)
+    }
+
+    fn held_in_a_loop(&self, script: &StageScript, things: &[usize]) -> Vec<ScriptError> {
+        let names: Vec<&str> = things.iter().map(|&thing| &*self.things[thing].id).collect();
+        let action =
+            things.iter().find_map(|&thing| self.things[thing].holds.first()).map_or(0, |hold| hold.action);
+        let found = script.with_errors(|errors| {
+            let message = format!("these things hold each other: {}", names.join(", "));
+            errors.add(script.element(action).name.clone(), message, "attach one of them to something else");
+        });
+        found.err().unwrap_or_default()
+    }
+
+    /// Computes the place where each thing is detached, in the order of time.
+    fn detach_places(&mut self) {
+        let mut all: Vec<(StageTime, usize, usize, usize)> = Vec::new();
+        for (thing, planned) in self.things.iter().enumerate() {
+            for (at, hold) in planned.holds.iter().enumerate() {
+                match hold.kind {
+                    HoldKind::Detach { .. } => all.push((hold.begin, hold.action, thing, at)),
+                    HoldKind::Attach { .. } => {}
+                }
+            }
+        }
+        all.sort_unstable();
+        if all.is_empty() {
+            return;
+        }
+        let mut scene = self.new_scene();
+        for (begin, _, thing, at) in all {
+            self.scene_at(begin, &mut scene);
+            let place = evaluate::rigid(&scene.things[thing].transform);
+            if let HoldKind::Detach { from, .. } = &mut self.things[thing].holds[at].kind {
+                *from = Some(place);
+            }
+        }
+    }
+
+    /// Returns the times of the actions.
+    pub fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    /// Returns the length of the script.
+    pub fn length(&self) -> StageTime {
+        self.schedule.length()
+    }
+
+    /// Returns the things of the cast, in the order of the script.
+    pub fn things(&self) -> &[PlannedThing] {
+        &self.things
+    }
+
+    /// Returns the position of the thing called `id`.
+    pub fn thing_called(&self, id: &str) -> Option<usize> {
+        self.things.iter().position(|thing| &*thing.id == id)
+    }
+
+    /// Returns the titles.
+    pub fn titles(&self) -> &[TitleCue] {
+        &self.titles
+    }
+
+    /// Returns the sounds.
+    pub fn sounds(&self) -> &[SoundCue] {
+        &self.sounds
+    }
+
+    /// Returns the place of a thing at `time` by its motions alone, as if nothing held it; `None` past the end.
+    pub fn placement(&self, thing: usize, time: StageTime) -> Option<Placement> {
+        self.things.get(thing).map(|thing| thing.places.at(time))
+    }
+
+    /// Allocates a scene for this plan.
+    pub fn new_scene(&self) -> StageScene {
+        let light = LightState { color: Vec3::ONE, strength: 1.0 };
+        let effect = EffectState { weight: 0.0, seconds: 0.0, seed: 0, rate: 0.0 };
+        let state = |thing: &PlannedThing| ThingState {
+            transform: Transform::IDENTITY,
+            pose: thing.model.as_ref().map(|model| ThingPose::new(model.rig())),
+            light: (thing.kind == "light").then_some(light),
+            effect: (thing.kind == "effect").then_some(effect),
+        };
+        let bones = |thing: &PlannedThing| thing.model.as_ref().map_or(0, |model| model.rig().bones());
+        StageScene {
+            time: StageTime::ZERO,
+            things: self.things.iter().map(state).collect(),
+            camera: None,
+            titles: Vec::with_capacity(self.titles.len()),
+            sounds: Vec::with_capacity(self.sounds.len()),
+            scratch: StageScratch::new(self.things.iter().map(bones).max().unwrap_or(0)),
+        }
+    }
+
+    /// Writes the scene of frame `frame` of the script's frame rate; see [`Self::scene_at`].
+    pub fn frame(&self, frame: i64, scene: &mut StageScene) {
+        self.scene_at(self.rate.frame(frame), scene);
+    }
+
+    /// Writes the scene at `time`.
+    ///
+    /// A function of plan and time: the same bits in any order of calls, on any thread. Allocates nothing, unless `scene` was made for
+    /// another plan.
+    pub fn scene_at(&self, time: StageTime, scene: &mut StageScene) {
+        evaluate::evaluate(self, time, scene);
+    }
+}

@@ -1,0 +1,52 @@
+//! A thing of the cast with everything that happens to it.
+
+use super::cues::RunCue;
+use super::holds::HoldCue;
+use super::looks::LookCue;
+use super::places::PlaceLane;
+use super::poses::PoseLane;
+use super::properties::PropertyLane;
+use super::spot::StageSpot;
+use crate::stage::model::StageModel;
+use std::sync::Arc;
+
+/// What is in focus.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum FocusTarget {
+    /// Everything.
+    Everything,
+    /// A distance, meters.
+    Distance(f64),
+    /// A position.
+    Spot(StageSpot),
+}
+
+/// A thing and its channels.
+#[derive(Clone, Debug)]
+pub struct PlannedThing {
+    /// The id.
+    pub id: Box<str>,
+    /// Name of its element.
+    pub kind: &'static str,
+    /// Meters in one length of its model.
+    pub scale: f64,
+    /// Its model; `None` for things without one.
+    pub model: Option<Arc<StageModel>>,
+    pub(super) places: PlaceLane,
+    /// The first lane is that of the whole body.
+    pub(super) poses: Vec<PoseLane>,
+    pub(super) looks: Vec<LookCue>,
+    pub(super) holds: Vec<HoldCue>,
+    pub(super) properties: Vec<PropertyLane>,
+    pub(super) runs: Vec<RunCue>,
+    /// The target of a camera unless an action has another one.
+    pub(super) aim: Option<StageSpot>,
+    pub(super) focus: FocusTarget,
+}
+
+impl PlannedThing {
+    /// Returns the lane of a property.
+    pub(super) fn property(&self, name: &str) -> Option<&PropertyLane> {
+        self.properties.iter().find(|lane| lane.name == name)
+    }
+}

@@ -1,0 +1,243 @@
+//! Scripts: from a text to things and actions whose references are resolved.
+//!
+//! ```text
+//! text → XML with places → checked against the tables → names resolved: StageScript
+//! ```
+//!
+//! What depends on models (takes, bones, lengths) is checked where a script is built for them: [`crate::stage::StagePlan`].
+
+mod error;
+mod read;
+mod references;
+mod suggest;
+mod text_place;
+mod tree;
+
+pub use crate::stage::moment::{MomentText, is_name};
+pub(in crate::stage) use error::ErrorList;
+pub use error::{MOST_ERRORS, ScriptError};
+pub use read::{MOST_BYTES, MOST_DEPTH, MOST_NODES};
+pub(in crate::stage) use suggest::suggestion;
+use text_place::LineIndex;
+pub use text_place::TextPlace;
+pub use tree::{ScriptAttribute, ScriptElement, ScriptTree};
+
+use crate::stage::table::{ElementGroup, size};
+use crate::stage::time::{Decimal, StageRate, StageTime, parse_time};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// How often an action runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StageRepeat {
+    /// This many times, not necessarily a whole number.
+    Times(Decimal),
+    /// For as long as there is time.
+    Fill,
+}
+
+/// A moment of another action, with its reference resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActionMoment {
+    /// A time after the usual begin.
+    Offset(StageTime),
+    /// A time after the start of an action.
+    Begin(usize, StageTime),
+    /// A time after the end of an action.
+    End(usize, StageTime),
+    /// A time after a point of the take that an action plays: the point's time in the take, and the offset.
+    Point(usize, StageTime, StageTime),
+}
+
+/// An action or container of a script.
+#[derive(Clone, Debug)]
+pub struct ScriptAction {
+    /// Its element in [`ScriptTree::elements`].
+    pub element: usize,
+    /// The container; the script itself is action 0 and has none.
+    pub parent: Option<usize>,
+    /// The actions inside a container, in the order of the text.
+    pub children: Vec<usize>,
+    /// Its position among the children of its container.
+    pub position: usize,
+    /// When it begins; `None`: as usual.
+    pub begin: Option<ActionMoment>,
+    /// When it ends, as written.
+    pub end: Option<ActionMoment>,
+    /// Its duration, as written.
+    pub dur: Option<StageTime>,
+    /// How often it runs.
+    pub repeat: StageRepeat,
+    /// Whether it has no length of its own (rule 3).
+    pub passive: bool,
+}
+
+/// A script whose names are resolved, ready to be given times.
+#[derive(Clone, Debug)]
+pub struct StageScript {
+    tree: ScriptTree,
+    rate: StageRate,
+    size: [u32; 2],
+    seed: u32,
+    /// Elements of the things, in the order of the text.
+    things: Vec<usize>,
+    actions: Vec<ScriptAction>,
+    ids: HashMap<Box<str>, NamedItem>,
+}
+
+/// What an id names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::stage) enum NamedItem {
+    /// A thing of the cast, by its position in the list of things.
+    Thing(usize),
+    /// An action.
+    Action(usize),
+}
+
+impl StageScript {
+    /// Reads a script. Allocates in proportion to the text; the text is shared, not copied.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong, in the order of the text: at most [`MOST_ERRORS`]. A text that is not XML has one error.
+    pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
+        let text = text.into();
+        let tree = read::read_tree(&text)?;
+        let root = &tree.elements[0];
+        let (rate, size, seed) = (
+            root.value("fps").and_then(StageRate::parse).unwrap_or_default(),
+            root.value("size").and_then(size).unwrap_or([1280, 720]),
+            root.value("seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
+        );
+        let mut script =
+            Self { tree, rate, size, seed, things: Vec::new(), actions: Vec::new(), ids: HashMap::new() };
+        let lines = script.tree.lines.clone();
+        let mut errors = ErrorList::new(&lines);
+        script.collect(&mut errors);
+        references::resolve(&mut script, &mut errors);
+        if errors.is_empty() { Ok(script) } else { Err(errors.sorted()) }
+    }
+
+    /// Lists things, actions and ids.
+    fn collect(&mut self, errors: &mut ErrorList) {
+        let mut action_of: HashMap<usize, usize> = HashMap::new();
+        for (index, element) in self.tree.elements.iter().enumerate() {
+            let item = match element.row.group {
+                ElementGroup::Thing => {
+                    self.things.push(index);
+                    NamedItem::Thing(self.things.len() - 1)
+                }
+                ElementGroup::Script | ElementGroup::Container | ElementGroup::Action => {
+                    let parent = element.parent.and_then(|parent| action_of.get(&parent)).copied();
+                    let own = self.actions.len();
+                    let position = parent.map_or(0, |parent| self.actions[parent].children.len());
+                    self.actions.push(self.action(index, parent, position));
+                    if let Some(parent) = parent {
+                        self.actions[parent].children.push(own);
+                    }
+                    action_of.insert(index, own);
+                    NamedItem::Action(own)
+                }
+                ElementGroup::Cast | ElementGroup::Part => continue,
+            };
+            let Some(id) = element.value("id") else { continue };
+            if id == "prev" {
+                errors.add(
+                    element.value_range("id"),
+                    "\"prev\" means the action before, so nothing can be called that",
+                    "",
+                );
+            } else if let Some(first) = self.ids.insert(id.into(), item) {
+                let first = match first {
+                    NamedItem::Thing(thing) => self.things[thing],
+                    NamedItem::Action(action) => self.actions[action].element,
+                };
+                let first = errors.place(self.tree.elements[first].range.start);
+                let message = format!("the id \"{id}\" is used at {first} already");
+                errors.add(element.value_range("id"), message, "an id names one thing or action");
+            }
+        }
+    }
+
+    fn action(&self, index: usize, parent: Option<usize>, position: usize) -> ScriptAction {
+        let element = &self.tree.elements[index];
+        let time = |name: &str| element.value(name).and_then(|text| parse_time(text, self.rate));
+        let repeat = match element.value("repeat") {
+            Some("fill") => StageRepeat::Fill,
+            Some(times) => StageRepeat::Times(Decimal::parse(times).unwrap_or(Decimal::ONE)),
+            None => StageRepeat::Times(Decimal::ONE),
+        };
+        ScriptAction {
+            element: index,
+            parent,
+            children: Vec::new(),
+            position,
+            begin: None,
+            end: None,
+            dur: time("dur"),
+            repeat,
+            passive: false,
+        }
+    }
+
+    /// Returns the text and its elements.
+    pub fn tree(&self) -> &ScriptTree {
+        &self.tree
+    }
+
+    /// Returns the frames per second.
+    pub fn rate(&self) -> StageRate {
+        self.rate
+    }
+
+    /// Returns width and height of the image in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Returns the start of all random numbers.
+    pub fn seed(&self) -> u32 {
+        self.seed
+    }
+
+    /// Returns the elements of the things, in the order of the text.
+    pub fn things(&self) -> impl ExactSizeIterator<Item = &ScriptElement> {
+        self.things.iter().map(|&thing| &self.tree.elements[thing])
+    }
+
+    /// Returns the actions, in the order of the text; the first one is the script, which is a `par`.
+    pub fn actions(&self) -> &[ScriptAction] {
+        &self.actions
+    }
+
+    /// Returns the action called `id`.
+    pub fn action_called(&self, id: &str) -> Option<usize> {
+        match self.ids.get(id)? {
+            NamedItem::Action(action) => Some(*action),
+            NamedItem::Thing(_) => None,
+        }
+    }
+
+    /// Returns the position of the thing called `id` in [`Self::things`].
+    pub fn thing_called(&self, id: &str) -> Option<usize> {
+        match self.ids.get(id)? {
+            NamedItem::Thing(thing) => Some(*thing),
+            NamedItem::Action(_) => None,
+        }
+    }
+
+    /// Returns the element of an action.
+    pub fn element(&self, action: usize) -> &ScriptElement {
+        &self.tree.elements[self.actions[action].element]
+    }
+
+    /// Returns the errors of a later step, with their places, from what `check` adds.
+    pub(in crate::stage) fn with_errors<T>(
+        &self,
+        check: impl FnOnce(&mut ErrorList) -> T,
+    ) -> Result<T, Vec<ScriptError>> {
+        let mut errors = ErrorList::new(&self.tree.lines);
+        let result = check(&mut errors);
+        if errors.is_empty() { Ok(result) } else { Err(errors.sorted()) }
+    }
+}

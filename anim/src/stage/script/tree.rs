@@ -1,0 +1,96 @@
+//! The elements of a script with their places in the text.
+
+use super::{LineIndex, TextPlace};
+use crate::stage::table::{AttributeRow, ElementRow};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// An attribute of an element.
+#[derive(Clone, Debug)]
+pub struct ScriptAttribute {
+    /// Its row in the tables.
+    pub row: &'static AttributeRow,
+    /// The value, with references such as `&amp;` replaced.
+    pub value: Box<str>,
+    /// Bytes of name, `=`, quotes and value.
+    pub range: Range<usize>,
+    /// Bytes of the name.
+    pub name: Range<usize>,
+    /// Bytes of the value inside its quotes.
+    pub value_range: Range<usize>,
+}
+
+/// An element of a script.
+#[derive(Clone, Debug)]
+pub struct ScriptElement {
+    /// Its row in the tables.
+    pub row: &'static ElementRow,
+    /// The element around it; `None` for the script.
+    pub parent: Option<usize>,
+    /// Bytes from `<` to the end of its end tag.
+    pub range: Range<usize>,
+    /// Bytes of its name in the start tag.
+    pub name: Range<usize>,
+    /// Its attributes, in the order of the text. Those of other namespaces are left out.
+    pub attributes: Vec<ScriptAttribute>,
+}
+
+impl ScriptElement {
+    /// Returns the attribute called `name`, if it is written.
+    pub fn attribute(&self, name: &str) -> Option<&ScriptAttribute> {
+        self.attributes.iter().find(|attribute| attribute.row.name == name)
+    }
+
+    /// Returns the value of `name`: as written, or the default. `None` where there is neither.
+    pub fn value(&self, name: &str) -> Option<&str> {
+        let written = self.attribute(name).map(|attribute| &*attribute.value);
+        written
+            .or_else(|| self.row.attribute(name).map(|row| row.default).filter(|default| !default.is_empty()))
+    }
+
+    /// Returns the bytes of the value of `name`, or of the element's name where the attribute is not written: the place for errors.
+    pub fn value_range(&self, name: &str) -> Range<usize> {
+        self.attribute(name).map_or_else(|| self.name.clone(), |attribute| attribute.value_range.clone())
+    }
+}
+
+/// The text of a script and its elements, in the order of their start tags. Elements of other namespaces are left out.
+#[derive(Clone, Debug)]
+pub struct ScriptTree {
+    pub(super) text: Arc<str>,
+    pub(super) lines: LineIndex,
+    pub(super) elements: Vec<ScriptElement>,
+}
+
+impl ScriptTree {
+    /// Returns the text.
+    pub fn text(&self) -> &Arc<str> {
+        &self.text
+    }
+
+    /// Returns all elements; the first one is the script.
+    pub fn elements(&self) -> &[ScriptElement] {
+        &self.elements
+    }
+
+    /// Returns line and column of a byte of the text.
+    pub fn place(&self, at: usize) -> TextPlace {
+        self.lines.place(at)
+    }
+
+    /// Returns the innermost element that contains the byte at `at`: the one at the caret of an editor.
+    pub fn element_at(&self, at: usize) -> Option<usize> {
+        // A later start tag that contains the byte is inside the earlier ones.
+        self.elements.iter().rposition(|element| element.range.contains(&at))
+    }
+
+    /// Returns `<NAME>` of an element, with its id or line: `<play id="grab"> (line 31)`.
+    pub(in crate::stage) fn title(&self, element: usize) -> String {
+        let Some(element) = self.elements.get(element) else { return String::new() };
+        let line = self.place(element.range.start).line;
+        match element.value("id") {
+            Some(id) => format!("<{} id=\"{id}\"> (line {line})", element.row.name),
+            None => format!("<{}> (line {line})", element.row.name),
+        }
+    }
+}

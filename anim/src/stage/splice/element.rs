@@ -1,0 +1,80 @@
+//! Whole elements: deleted, moved, duplicated.
+
+use super::insert::{ElementPlace, block};
+use super::layout::{after_line_end, comments_above, indentation, line_start, rest_of_line};
+use super::names::with_new_ids;
+use super::{TextSplice, TextSplices};
+use crate::stage::script::ScriptTree;
+use std::ops::Range;
+
+/// What happens to the comments directly above an element and behind it in its line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AttachedComments {
+    /// They stay where they are.
+    Stay,
+    /// They go with the element.
+    Follow,
+}
+
+/// Deletes an element with everything in it.
+///
+/// References to it stay, and are errors of the new script: see [`super::is_used`]. `None` where there is no such element,
+/// and for the script itself.
+pub fn delete(tree: &ScriptTree, element: usize, comments: AttachedComments) -> Option<TextSplices> {
+    Some(TextSplices::one(taken(tree, element, comments)?, ""))
+}
+
+/// Moves an element with everything in it to another place.
+///
+/// `None` where there is no such element or place, for the script itself, and for a place inside the element.
+pub fn move_to(
+    tree: &ScriptTree,
+    element: usize,
+    place: ElementPlace,
+    comments: AttachedComments,
+) -> Option<TextSplices> {
+    let (ElementPlace::First(near) | ElementPlace::After(near)) = place;
+    if place == ElementPlace::After(element) {
+        return Some(TextSplices::default());
+    }
+    let mut around = Some(near);
+    while let Some(index) = around {
+        if index == element {
+            return None;
+        }
+        around = tree.elements().get(index)?.parent;
+    }
+    let (text, range) = (tree.text(), taken(tree, element, comments)?);
+    let old = indentation(text, tree.elements().get(element)?.range.start).unwrap_or_default();
+    let content = text.get(range.clone())?.trim_matches([' ', '\t', '\r', '\n']);
+    let put = block(tree, place, content, old)?;
+    if range.contains(&put.range.start) && put.range.start > range.start {
+        return Some(TextSplices::default());
+    }
+    Some(TextSplices::of(vec![TextSplice { range, text: String::new() }, put]))
+}
+
+/// Inserts a copy of an element after it. The copy has new ids, and its references to the old ids inside of it follow.
+///
+/// `None` where there is no such element, and for the script itself.
+pub fn duplicate(tree: &ScriptTree, element: usize) -> Option<TextSplices> {
+    let own = tree.elements().get(element)?;
+    let old = indentation(tree.text(), own.range.start).unwrap_or_default();
+    let copy = with_new_ids(tree, element)?;
+    Some(TextSplices::of(vec![block(tree, ElementPlace::After(element), &copy, old)?]))
+}
+
+/// Returns the bytes that are taken out with an element: its whole lines where nothing else is in them.
+fn taken(tree: &ScriptTree, element: usize, comments: AttachedComments) -> Option<Range<usize>> {
+    let (text, element) = (tree.text(), tree.elements().get(element)?);
+    element.parent?;
+    let own = element.range.clone();
+    let with_comments = comments == AttachedComments::Follow;
+    let line = indentation(text, own.start).and(rest_of_line(text, own.end, with_comments));
+    let Some(line) = line else { return Some(own) };
+    let mut start = line_start(text, own.start);
+    if with_comments {
+        start = comments_above(text, start);
+    }
+    Some(start..after_line_end(text, line))
+}

@@ -1,0 +1,95 @@
+//! Names: new ones, and what refers to them.
+
+use super::{TextSplice, TextSplices, escaped};
+use crate::stage::script::{ScriptAttribute, ScriptTree, is_name};
+use crate::stage::table::ReferenceKind;
+use std::collections::HashMap;
+
+/// Returns a name that no element has: `base`, without what cannot be in a name, and with a number where it is taken.
+pub fn unique_id(tree: &ScriptTree, base: &str) -> String {
+    unique(base, |name| tree.elements().iter().any(|element| element.value("id") == Some(name)))
+}
+
+fn unique(base: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '_' { letter } else { '-' };
+    let base: String = base.chars().map(plain).collect();
+    let parts: Vec<&str> = base.split('-').filter(|part| !part.is_empty()).collect();
+    let mut base = parts.join("-");
+    // A name begins with a letter, and "prev" means the action before.
+    if !is_name(&base) || base == "prev" {
+        base = format!("a-{base}").trim_end_matches('-').to_owned();
+    }
+    // A number at the end is counted on.
+    let stem = base.rsplit_once('-').filter(|(_, number)| number.bytes().all(|byte| byte.is_ascii_digit()));
+    let stem = stem.map_or(base.as_str(), |(stem, _)| stem).to_owned();
+    let numbered = (2_u64..).map(|number| format!("{stem}-{number}"));
+    std::iter::once(base.clone()).chain(numbered).find(|name| !is_taken(name)).unwrap_or(base)
+}
+
+/// Returns whether a reference names the element called `id`.
+pub fn is_used(tree: &ScriptTree, id: &str) -> bool {
+    tree.elements()
+        .iter()
+        .flat_map(|element| &element.attributes)
+        .any(|attribute| named(attribute) == Some(id))
+}
+
+/// Gives an element another id, and changes all references to it.
+///
+/// `None` where there is no such element, where it has no id, and for an id that is no name or that another element has.
+pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Option<TextSplices> {
+    let own = tree.elements().get(element)?.attribute("id")?;
+    if &*own.value == id {
+        return Some(TextSplices::default());
+    }
+    let is_taken = tree.elements().iter().any(|element| element.value("id") == Some(id));
+    if is_taken || id == "prev" || !is_name(id) {
+        return None;
+    }
+    let names = HashMap::from([(&*own.value, id.to_owned())]);
+    let attributes = tree.elements().iter().flat_map(|element| &element.attributes);
+    Some(TextSplices::of(attributes.filter_map(|attribute| renamed(attribute, &names)).collect()))
+}
+
+/// Returns the text of an element in which every id is a new one.
+pub(super) fn with_new_ids(tree: &ScriptTree, element: usize) -> Option<String> {
+    let range = tree.elements().get(element)?.range.clone();
+    let inside = || tree.elements().iter().skip(element).take_while(|inner| inner.range.start < range.end);
+    let mut taken: Vec<String> =
+        tree.elements().iter().filter_map(|element| element.value("id")).map(str::to_owned).collect();
+    let mut names = HashMap::new();
+    for id in inside().filter_map(|element| element.value("id")) {
+        let new = unique(id, |name| taken.iter().any(|taken| taken == name));
+        taken.push(new.clone());
+        names.insert(id, new);
+    }
+    let splices =
+        inside().flat_map(|element| &element.attributes).filter_map(|attribute| renamed(attribute, &names));
+    let moved = |splice: TextSplice| TextSplice {
+        range: splice.range.start - range.start..splice.range.end - range.start,
+        ..splice
+    };
+    let splices = TextSplices::of(splices.map(moved).collect());
+    Some(splices.apply(tree.text().get(range.clone())?))
+}
+
+/// Returns the name of an element that an attribute refers to.
+fn named(attribute: &ScriptAttribute) -> Option<&str> {
+    let value = &*attribute.value;
+    let name = match attribute.row.reference()? {
+        ReferenceKind::Name => value,
+        // A moment of an action, or a thing or one of its bones: the name is in front of the first point.
+        ReferenceKind::Moment => value.split_once('.')?.0,
+        ReferenceKind::Spot => value.split_once('.').map_or(value, |(name, _)| name),
+    };
+    is_name(name).then_some(name)
+}
+
+/// Returns the splice that gives an id, or a reference to one, its new name.
+fn renamed(attribute: &ScriptAttribute, names: &HashMap<&str, String>) -> Option<TextSplice> {
+    let old = if attribute.row.name == "id" { &*attribute.value } else { named(attribute)? };
+    let value = format!("{}{}", names.get(old)?, attribute.value.get(old.len()..)?);
+    // Names contain nothing that depends on the quotes, but a bone after the point may.
+    let text = escaped(&value, '"').replace('\'', "&apos;");
+    Some(TextSplice { range: attribute.value_range.clone(), text })
+}

@@ -1,0 +1,67 @@
+//! The vocabulary as tables: a row for each element, a row for each attribute.
+//!
+//! Checks, messages, help, completion, default values and the schema all read these rows. A new thing or action is a row here, and a
+//! variant where it is evaluated.
+
+mod actions;
+mod cast;
+mod property;
+mod reference;
+mod row;
+mod schema;
+mod value;
+
+pub use property::{PROPERTIES, PropertyRow, PropertyType, property};
+pub use reference::ReferenceKind;
+pub use row::{AttributeRow, ElementGroup, ElementRow};
+pub use schema::schema;
+pub use value::ValueRow;
+pub(in crate::stage) use value::{numbers, points, size, vector};
+
+/// Every element, in the order of the documentation.
+pub const ELEMENTS: &[&ElementRow] = &[
+    &cast::SCRIPT,
+    &cast::CAST,
+    &cast::ROLE,
+    &cast::PROP,
+    &cast::CAMERA,
+    &cast::LIGHT,
+    &cast::EFFECT,
+    &cast::PATH,
+    &cast::MARK,
+    &actions::SEQ,
+    &actions::PAR,
+    &actions::WAIT,
+    &actions::PLAY,
+    &actions::MOVE,
+    &actions::TURN,
+    &actions::PLACE,
+    &actions::LOOK,
+    &actions::ATTACH,
+    &actions::DETACH,
+    &actions::SHOT,
+    &actions::RUN,
+    &actions::SET,
+    &actions::CHANGE,
+    &actions::SOUND,
+    &actions::TITLE,
+    &actions::AT,
+];
+
+/// Returns the row of the element called `name`.
+pub fn element(name: &str) -> Option<&'static ElementRow> {
+    ELEMENTS.iter().find(|row| row.name == name).copied()
+}
+
+/// Returns the elements that may be inside `row`.
+pub fn children_of(row: &ElementRow) -> Vec<&'static ElementRow> {
+    let of = |groups: &[ElementGroup]| {
+        ELEMENTS.iter().copied().filter(|row| groups.contains(&row.group)).collect()
+    };
+    match row.group {
+        ElementGroup::Script => of(&[ElementGroup::Cast, ElementGroup::Container, ElementGroup::Action]),
+        ElementGroup::Cast => of(&[ElementGroup::Thing]),
+        ElementGroup::Container => of(&[ElementGroup::Container, ElementGroup::Action]),
+        ElementGroup::Thing | ElementGroup::Action | ElementGroup::Part => row.parts.to_vec(),
+    }
+}

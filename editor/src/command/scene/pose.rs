@@ -1,0 +1,97 @@
+//! Poses of a thing of a scene at given times: `dragonfly pose SCENE.xml --role ID --time S`.
+
+use crate::command::Failure;
+use dragonfly_anim::fast::matrix::mat4;
+use dragonfly_anim::stage::time::StageTime;
+use dragonfly_document::LoadedScene;
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// Poses of one thing.
+#[derive(Serialize)]
+pub(in crate::command) struct RolePoses {
+    file: String,
+    role: String,
+    kind: &'static str,
+    poses: Vec<RolePoseRow>,
+}
+
+/// A thing at one time.
+#[derive(Serialize)]
+struct RolePoseRow {
+    /// Seconds.
+    time: f64,
+    /// Meters.
+    translation: [f32; 3],
+    /// Quaternion x y z w.
+    rotation: [f32; 4],
+    scale: [f32; 3],
+    bones: Vec<SceneBoneRow>,
+}
+
+/// A bone in the scene.
+#[derive(Serialize)]
+struct SceneBoneRow {
+    name: String,
+    /// Bone space → the scene, column-major.
+    to_scene: [f32; 16],
+}
+
+impl RolePoses {
+    /// Computes the poses of the thing called `role` at `times` in seconds.
+    ///
+    /// # Errors
+    ///
+    /// The scene has no such thing.
+    pub(in crate::command) fn of(scene: &LoadedScene, role: &str, times: &[f32]) -> Result<Self, Failure> {
+        let plan = &scene.plan;
+        let Some(thing) = plan.thing_called(role) else {
+            let names: Vec<&str> = plan.things().iter().map(|thing| &*thing.id).collect();
+            let reason = format_args!("--role: nothing is called \"{role}\"; there is {}", names.join(", "));
+            return Err(Failure::input(&scene.title, reason));
+        };
+        let mut shown = plan.new_scene();
+        let poses = times.iter().map(|&time| {
+            plan.scene_at(StageTime::from_seconds(f64::from(time)), &mut shown);
+            let state = &shown.things[thing];
+            let to_scene = state.transform.to_matrix();
+            let model = plan.things()[thing].model.as_ref();
+            let bones = model.zip(state.pose.as_ref()).map_or(Vec::new(), |(model, pose)| {
+                let bones = model.skeleton().bones().iter().zip(pose.to_root.matrices());
+                let row = |(bone, to_root): (&dragonfly_anim::data::Bone, _)| SceneBoneRow {
+                    name: bone.name.clone(),
+                    to_scene: (to_scene * mat4(to_root)).to_cols_array(),
+                };
+                bones.map(row).collect()
+            });
+            RolePoseRow {
+                time: shown.time.seconds(),
+                translation: state.transform.translation.to_array(),
+                rotation: state.transform.rotation.to_array(),
+                scale: state.transform.scale.to_array(),
+                bones,
+            }
+        });
+        Ok(Self {
+            file: scene.title.clone(),
+            role: role.to_owned(),
+            kind: plan.things()[thing].kind,
+            poses: poses.collect(),
+        })
+    }
+
+    /// Writes position and rotation of the thing, and the positions of its bones.
+    pub(in crate::command) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "{}, {} {}", self.file, self.kind, self.role)?;
+        for pose in &self.poses {
+            let [x, y, z] = pose.translation;
+            let [a, b, c, d] = pose.rotation;
+            writeln!(out, "\n{} s at {x:.4} {y:.4} {z:.4}, rotation {a:.4} {b:.4} {c:.4} {d:.4}", pose.time)?;
+            for bone in &pose.bones {
+                let [x, y, z] = [bone.to_scene[12], bone.to_scene[13], bone.to_scene[14]];
+                writeln!(out, "  {} {x:.4} {y:.4} {z:.4}", crate::command::choice::plain(&bone.name))?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,4 @@
+mod stage;
+
+#[global_allocator]
+static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;
