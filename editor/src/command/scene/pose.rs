@@ -57,7 +57,7 @@ impl RolePoses {
             let to_scene = state.transform.to_matrix();
             let model = plan.things()[thing].model.as_ref();
             let bones = model.zip(state.pose.as_ref()).map_or(Vec::new(), |(model, pose)| {
-                let bones = model.skeleton().bones().iter().zip(pose.to_root.matrices());
+                let bones = model.skeleton().bones.iter().zip(pose.to_root.matrices());
                 let row = |(bone, to_root): (&dragonfly_anim::data::Bone, _)| SceneBoneRow {
                     name: bone.name.clone(),
                     to_scene: (to_scene * mat4(to_root)).to_cols_array(),
