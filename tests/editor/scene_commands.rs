@@ -60,7 +60,7 @@ fn the_times_of_a_script_follow_from_ways_speeds_and_takes() {
     assert_eq!(begin, 2.0);
     assert!((end - 2.0 - number(&survey["length"])).abs() < 1e-3, "{end} {survey}");
     assert_eq!(times["length"], end);
-    let table = run(["script", text(&path)]).expect(0).text();
+    let table = run(["script", text(&path)]).expect(0).text().to_owned();
     assert!(table.lines().any(|line| line.contains("walk") && line.contains("2.000")), "{table}");
 }
 
@@ -72,10 +72,11 @@ fn a_role_stands_where_its_way_leads_at_each_time() {
     let poses = run(order).expect(0).json();
     assert_eq!((&poses["kind"], poses["poses"].as_array().map(Vec::len)), (&"role".into(), Some(3)));
     // Along x from (1 0 2), at two meters a second, for two seconds.
-    for (at, x) in [2.0, 5.0, 5.0].into_iter().enumerate() {
+    // Within a step it is faster and slower, as its feet are.
+    for (at, (x, tolerance)) in [(2.0, 0.05), (5.0, 1e-4), (5.0, 1e-4)].into_iter().enumerate() {
         let pose = &poses["poses"][at];
         let place: Vec<f64> = pose["translation"].as_array().expect("a place").iter().map(number).collect();
-        let near = [x, 0.0, 2.0].iter().zip(&place).all(|(wanted, found)| (wanted - found).abs() < 1e-4);
+        let near = [x, 0.0, 2.0].iter().zip(&place).all(|(wanted, found)| (wanted - found).abs() < tolerance);
         assert!(near, "{place:?} at {}", pose["time"]);
         assert!((number(&pose["scale"][0]) - 0.01).abs() < 1e-6);
         let bones = pose["bones"].as_array().expect("bones");
@@ -86,7 +87,7 @@ fn a_role_stands_where_its_way_leads_at_each_time() {
             assert!((x_of_bone - x).abs() < 2.0, "{bone}");
         }
     }
-    let text_of = run(["pose", text(&path), "--role", "fox", "--time", "2"]).expect(0).text();
+    let text_of = run(["pose", text(&path), "--role", "fox", "--time", "2"]).expect(0).text().to_owned();
     assert!(text_of.contains("2 s at 5.0000 0.0000 2.0000"), "{text_of}");
     let wrong = run(["pose", text(&path), "--role", "cat", "--time", "0"]).expect(2);
     assert!(wrong.stderr.contains("nothing is called \"cat\"; there is fox, box, wide"), "{}", wrong.stderr);
@@ -104,7 +105,7 @@ fn what_is_wrong_with_a_script_is_told_with_line_column_and_a_suggestion() {
     let message = finding["text"].as_str().expect("a text");
     assert!(message.starts_with("models/box.glb: "), "{message}");
     fs::write(&path, wrong.replace("models/box.glb", "models/box_sparse.glb")).expect("a file");
-    let printed = run(["check", text(&path)]).expect(1).text();
+    let printed = run(["check", text(&path)]).expect(1).text().to_owned();
     assert!(printed.contains("scene.xml: 1 error"), "{printed}");
     assert!(printed.contains("10:40: ") && printed.contains("did you mean \"Survey\""), "{printed}");
     fs::write(&path, SCENE).expect("a file");
@@ -121,24 +122,24 @@ fn models_outside_of_the_folder_of_the_script_are_refused() {
     fs::copy(&path, &inner).expect("a copy");
     let climbing = fs::read_to_string(&inner).expect("a text").replace("models/", "../models/");
     fs::write(&inner, climbing).expect("a file");
-    let refused = run(["check", text(&inner)]).expect(1).text();
+    let refused = run(["check", text(&inner)]).expect(1).text().to_owned();
     assert!(refused.contains("a relative path with `/`, below the folder of the script"), "{refused}");
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(folder.join("models"), folder.join("inner/models")).expect("a link");
         fs::write(&inner, SCENE).expect("a file");
-        let refused = run(["check", text(&inner)]).expect(1).text();
+        let refused = run(["check", text(&inner)]).expect(1).text().to_owned();
         assert!(refused.contains("outside"), "{refused}");
     }
     let binary = folder.join("binary.xml");
     fs::write(&binary, b"<script>\n\xff\xfe</script>").expect("a file");
-    let refused = run(["check", text(&binary)]).expect(1).text();
+    let refused = run(["check", text(&binary)]).expect(1).text().to_owned();
     assert!(refused.contains("2:1: this is not UTF-8"), "{refused}");
 }
 
 #[test]
 fn the_schema_of_scripts_is_printed() {
-    let schema = run(["script", "--schema"]).expect(0).text();
+    let schema = run(["script", "--schema"]).expect(0).text().to_owned();
     assert!(
         schema.starts_with("<?xml") && schema.contains("relaxng.org"),
         "{}",
