@@ -32,7 +32,7 @@ impl RoleSpace {
         self.position + self.rotation * (point * self.scale)
     }
 
-    pub(super) fn from_scene(self, point: DVec3) -> DVec3 {
+    pub(super) fn to_own(self, point: DVec3) -> DVec3 {
         self.rotation.inverse() * (point - self.position) / self.scale
     }
 }
@@ -70,7 +70,7 @@ pub(super) fn keep_feet(
         let now = space.to_scene(joint(&state.to_root, foot.bone).as_dvec3());
         *target = standing
             .target(index, phase, now)
-            .map(|target| FootTarget { position: space.from_scene(target.position), ..target });
+            .map(|target| FootTarget { position: space.to_own(target.position), ..target });
     }
     if targets.iter().all(Option::is_none) {
         return;
