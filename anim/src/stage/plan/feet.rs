@@ -65,12 +65,12 @@ pub(super) fn keep_feet(
     let Some(stride) = &follower.stride else { return };
     let standing = StandingFeet { places, cue: walk.cue, follower, stride, scale: space.scale };
     let phase = follower.phase(walk.time.min(place.stop) - place.begin);
-    let mut targets: [Option<FootTarget>; MOST_FEET] = [None; MOST_FEET];
+    let mut targets: [Option<StandingTarget>; MOST_FEET] = [None; MOST_FEET];
     for (index, (foot, target)) in model.feet().iter().zip(&mut targets).enumerate() {
         let now = space.to_scene(joint(&state.to_root, foot.bone).as_dvec3());
         *target = standing
             .target(index, phase, now)
-            .map(|target| FootTarget { position: space.to_own(target.position), ..target });
+            .map(|target| StandingTarget { position: space.to_own(target.position), ..target });
     }
     if targets.iter().all(Option::is_none) {
         return;
@@ -99,7 +99,7 @@ fn joint(matrices: &RootPoses, bone: u32) -> Vec3 {
 const STRAIGHT: f32 = 0.995;
 
 /// Returns the distance by which the hips have to be lowered so that a leg reaches its target; 0 where it does, or cannot.
-fn missing(limb: &FastTwoBone, target: &FootTarget, matrices: &RootPoses) -> f32 {
+fn missing(limb: &FastTwoBone, target: &StandingTarget, matrices: &RootPoses) -> f32 {
     let [root, middle, end] = [limb.root, limb.middle, limb.end].map(|bone| joint(matrices, bone));
     let length = STRAIGHT * (root.distance(middle) + middle.distance(end));
     let way = root - target.position.as_vec3();
@@ -120,7 +120,7 @@ fn lower_hips(model: &StageModel, hips: u32, lower: f32, state: &mut ThingPose) 
 
 /// The position that a foot has to have, and its weight: less than 1 before and after a contact.
 #[derive(Clone, Copy, Debug)]
-struct FootTarget {
+struct StandingTarget {
     position: DVec3,
     weight: f32,
 }
@@ -135,10 +135,10 @@ struct StandingFeet<'a> {
 
 impl StandingFeet<'_> {
     /// Returns where a foot that is at `now` has to be; `None` where it is free.
-    fn target(&self, foot: usize, phase: f64, now: DVec3) -> Option<FootTarget> {
+    fn target(&self, foot: usize, phase: f64, now: DVec3) -> Option<StandingTarget> {
         let cycle = self.stride.seconds();
         let loops = (phase / cycle).floor();
-        let mut corrected = FootTarget { position: now, weight: 0.0 };
+        let mut corrected = StandingTarget { position: now, weight: 0.0 };
         for contact in self.stride.take().contacts().iter().filter(|contact| contact.foot == foot) {
             for turn in [loops - 1.0, loops, loops + 1.0] {
                 let (from, to) = (contact.from.seconds() + turn * cycle, contact.to.seconds() + turn * cycle);
@@ -147,7 +147,7 @@ impl StandingFeet<'_> {
                 }
                 let anchor = self.at(contact, 0.5 * (from + to), turn * cycle);
                 if (from..=to).contains(&phase) {
-                    return Some(FootTarget { position: anchor, weight: 1.0 });
+                    return Some(StandingTarget { position: anchor, weight: 1.0 });
                 }
                 let (border, far) = if phase < from { (from, from - phase) } else { (to, phase - to) };
                 let weight = smooth(1.0 - far / EASE);
