@@ -14,6 +14,7 @@ const DEPENDENCIES: &[(&str, &[&str])] = &[
             "libm",
             "miniz_oxide",
             "percent-encoding",
+            "roxmltree",
             "serde_json",
             "thiserror",
         ],

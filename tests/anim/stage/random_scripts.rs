@@ -37,7 +37,7 @@ impl Writer {
         let id = self.random.below(self.known.max(1));
         // Every third action is a play with a point.
         let point = match self.random.below(4) {
-            0 if id % 3 == 0 => "touch",
+            0 if id.is_multiple_of(3) => "touch",
             1 => "end",
             _ => "begin",
         };
@@ -75,7 +75,7 @@ impl Writer {
     fn action(&mut self, depth: usize, has_prev: bool) {
         let id = self.ids;
         self.ids += 1;
-        if id % 3 == 0 {
+        if id.is_multiple_of(3) {
             let take = self.random.choice(&["Walk", "Run", "PickUp", "Slash", "Idle", "Fall"]);
             let _ = write!(self.text, "<play who=\"anna\" take=\"{take}\"");
             let extra = self.random.choice(&[
@@ -112,7 +112,7 @@ impl Writer {
             self.text.push_str("/>");
             return;
         }
-        let name = if kind % 2 == 0 { "seq" } else { "par" };
+        let name = if kind.is_multiple_of(2) { "seq" } else { "par" };
         let _ = write!(self.text, "<{name}");
         self.timing(has_prev, id);
         self.text.push('>');

@@ -206,7 +206,7 @@ fn look(plan: &StagePlan, thing: usize, time: StageTime, scene: &mut StageScene)
         let ThingState { transform, pose: Some(state), .. } = &mut things[thing] else { return };
         let place = rigid(transform);
         let space = RoleSpace { position: place.position, rotation: place.rotation, scale: planned.scale };
-        let target = space.from_scene(target).as_vec3();
+        let target = space.to_own(target).as_vec3();
         let bones = state.pose.bones();
         let StageScratch { transforms, matrices, .. } = &mut *scratch;
         let (transforms, matrices) = (&mut transforms[..bones], &mut matrices[..bones]);

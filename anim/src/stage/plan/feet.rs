@@ -32,7 +32,7 @@ impl RoleSpace {
         self.position + self.rotation * (point * self.scale)
     }
 
-    pub(super) fn from_scene(self, point: DVec3) -> DVec3 {
+    pub(super) fn to_own(self, point: DVec3) -> DVec3 {
         self.rotation.inverse() * (point - self.position) / self.scale
     }
 }
@@ -65,16 +65,18 @@ pub(super) fn keep_feet(
     let Some(stride) = &follower.stride else { return };
     let standing = StandingFeet { places, cue: walk.cue, follower, stride, scale: space.scale };
     let phase = follower.phase(walk.time.min(place.stop) - place.begin);
-    let mut targets: [Option<Vec3>; MOST_FEET] = [None; MOST_FEET];
+    let mut targets: [Option<StandingTarget>; MOST_FEET] = [None; MOST_FEET];
     for (index, (foot, target)) in model.feet().iter().zip(&mut targets).enumerate() {
         let now = space.to_scene(joint(&state.to_root, foot.bone).as_dvec3());
-        *target = standing.target(index, phase, now).map(|target| space.from_scene(target).as_vec3());
+        *target = standing
+            .target(index, phase, now)
+            .map(|target| StandingTarget { position: space.to_own(target.position), ..target });
     }
     if targets.iter().all(Option::is_none) {
         return;
     }
     let legs = || model.feet().iter().zip(targets).filter_map(|(foot, target)| Some((foot, target?)));
-    let lower = legs().map(|(foot, target)| missing(&foot.limb, target, &state.to_root)).fold(0.0, f32::max);
+    let lower = legs().map(|(foot, target)| missing(&foot.limb, &target, &state.to_root)).fold(0.0, f32::max);
     if lower > 0.0
         && let Some(hips) = model.hips()
     {
@@ -82,7 +84,8 @@ pub(super) fn keep_feet(
         to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
     }
     for (foot, target) in legs() {
-        two_bone(&FastTwoBone { weight: walk.share, ..foot.limb }, target, &state.to_root, &mut state.pose);
+        let limb = FastTwoBone { weight: walk.share, ..foot.limb };
+        two_bone(&limb, target.position.as_vec3(), &state.to_root, &mut state.pose);
     }
     to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
 }
@@ -92,15 +95,17 @@ fn joint(matrices: &RootPoses, bone: u32) -> Vec3 {
     matrix::transform_point(matrices.get(bone as usize), Vec3::ZERO)
 }
 
+/// Part of its length that a leg may have between its ends: near its full length, a small movement of the foot is a large one of the knee.
+const STRAIGHT: f32 = 0.995;
+
 /// Returns the distance by which the hips have to be lowered so that a leg reaches its target; 0 where it does, or cannot.
-fn missing(limb: &FastTwoBone, target: Vec3, matrices: &RootPoses) -> f32 {
+fn missing(limb: &FastTwoBone, target: &StandingTarget, matrices: &RootPoses) -> f32 {
     let [root, middle, end] = [limb.root, limb.middle, limb.end].map(|bone| joint(matrices, bone));
-    // Slightly bent, as a straight leg has no direction for its knee.
-    let length = 0.999 * (root.distance(middle) + middle.distance(end));
-    let way = root - target;
+    let length = STRAIGHT * (root.distance(middle) + middle.distance(end));
+    let way = root - target.position.as_vec3();
     let height = (length * length - way.x * way.x - way.z * way.z).max(0.0).sqrt();
     let lower = way.y - height;
-    if lower > 0.0 { lower.min(LOWERED * length) } else { 0.0 }
+    if lower > 0.0 { lower.min(LOWERED * length) * target.weight } else { 0.0 }
 }
 
 /// Moves the hips down, to-root space.
@@ -113,6 +118,13 @@ fn lower_hips(model: &StageModel, hips: u32, lower: f32, state: &mut ThingPose) 
     }
 }
 
+/// The position that a foot has to have, and its weight: less than 1 before and after a contact.
+#[derive(Clone, Copy, Debug)]
+struct StandingTarget {
+    position: DVec3,
+    weight: f32,
+}
+
 struct StandingFeet<'a> {
     places: &'a PlaceLane,
     cue: usize,
@@ -123,10 +135,10 @@ struct StandingFeet<'a> {
 
 impl StandingFeet<'_> {
     /// Returns where a foot that is at `now` has to be; `None` where it is free.
-    fn target(&self, foot: usize, phase: f64, now: DVec3) -> Option<DVec3> {
+    fn target(&self, foot: usize, phase: f64, now: DVec3) -> Option<StandingTarget> {
         let cycle = self.stride.seconds();
         let loops = (phase / cycle).floor();
-        let (mut corrected, mut is_free) = (now, true);
+        let mut corrected = StandingTarget { position: now, weight: 0.0 };
         for contact in self.stride.take().contacts().iter().filter(|contact| contact.foot == foot) {
             for turn in [loops - 1.0, loops, loops + 1.0] {
                 let (from, to) = (contact.from.seconds() + turn * cycle, contact.to.seconds() + turn * cycle);
@@ -135,14 +147,15 @@ impl StandingFeet<'_> {
                 }
                 let anchor = self.at(contact, 0.5 * (from + to), turn * cycle);
                 if (from..=to).contains(&phase) {
-                    return Some(anchor);
+                    return Some(StandingTarget { position: anchor, weight: 1.0 });
                 }
                 let (border, far) = if phase < from { (from, from - phase) } else { (to, phase - to) };
-                corrected += (anchor - self.at(contact, border, turn * cycle)) * smooth(1.0 - far / EASE);
-                is_free = false;
+                let weight = smooth(1.0 - far / EASE);
+                corrected.position += (anchor - self.at(contact, border, turn * cycle)) * weight;
+                corrected.weight = corrected.weight.max(weight as f32);
             }
         }
-        (!is_free).then_some(corrected)
+        (corrected.weight > 0.0).then_some(corrected)
     }
 
     /// Returns the position in the scene that a foot in contact has by the take alone at the time `phase` of it.

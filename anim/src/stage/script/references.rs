@@ -104,7 +104,7 @@ pub(super) fn ancestors(script: &StageScript, index: usize) -> impl Iterator<Ite
     std::iter::successors(script.actions[index].parent, |&above| script.actions[above].parent)
 }
 
-fn thing_names<'a>(script: &'a StageScript, is_one: impl Fn(&str) -> bool) -> Vec<&'a str> {
+fn thing_names(script: &StageScript, is_one: impl Fn(&str) -> bool) -> Vec<&str> {
     script.things().filter(|thing| is_one(thing.row.name)).filter_map(|thing| thing.value("id")).collect()
 }
 
