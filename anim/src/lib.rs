@@ -94,6 +94,7 @@ pub mod animation;
 #[doc(alias("socket", "attachment"))]
 pub mod attach;
 mod axes;
+pub mod bake;
 #[doc(alias("blend tree"))]
 pub mod blend;
 pub mod bounds;

@@ -3,6 +3,7 @@
 
 use crate::doors::{TestFolder, model_files};
 use crate::save_judges::issues;
+use crate::save_support::json_of;
 use crate::soundness::faults;
 use dragonfly_anim::check::{Severity, check};
 use dragonfly_anim::data::{
@@ -251,6 +252,60 @@ fn what_gltf_cannot_hold_is_listed_and_the_rest_is_written() {
         1,
         "a take that moves nothing keeps the first bone at rest"
     );
+}
+
+#[test]
+fn every_accessor_has_a_view_that_is_long_enough() {
+    let mut model = unusual();
+    let more = Vertices { positions: vec![Vec3::Y; 7], ..Vertices::default() };
+    let nothing = MorphTarget { normals: vec![Vec3::ZERO; 7], ..MorphTarget::default() };
+    let primitive = Primitive {
+        vertices: more,
+        indices: vec![0, 1, 2],
+        material: None,
+        morph_targets: vec![nothing.clone(), nothing],
+    };
+    model.meshes[1] = Mesh { primitives: vec![primitive], morph_weights: vec![0.0; 2], ..Mesh::default() };
+    model.instances[1].morph_weights = vec![0.0; 2];
+    let file = gltf::write::glb(&model).expect("a model");
+    let json = json_of(&file.bytes);
+    let whole = |value: &serde_json::Value| value.as_u64().unwrap_or(0);
+    let accessors = json["accessors"].as_array().expect("accessors");
+    for accessor in accessors {
+        let view = &json["bufferViews"][accessor["bufferView"].as_u64().expect("a view") as usize];
+        let size = match whole(&accessor["componentType"]) {
+            5121 => 1,
+            5123 => 2,
+            _ => 4,
+        };
+        let width = match accessor["type"].as_str() {
+            Some("SCALAR") => 1,
+            Some("VEC2") => 2,
+            Some("VEC3") => 3,
+            Some("VEC4") => 4,
+            _ => 16,
+        };
+        let needed = whole(&accessor["count"]) * size * width;
+        assert!(whole(&view["byteLength"]) >= needed, "{accessor} {view}");
+        assert!(whole(&view["byteOffset"]) + needed <= whole(&json["buffers"][0]["byteLength"]), "{view}");
+    }
+    // Five columns of zeros share one view.
+    let zeros: Vec<u64> = accessors
+        .iter()
+        .filter(|accessor| accessor["max"] == serde_json::json!([0.0, 0.0, 0.0]))
+        .map(|accessor| whole(&accessor["bufferView"]))
+        .collect();
+    assert!(zeros.len() == 5 && zeros.iter().all(|view| *view == zeros[0]), "{zeros:?}");
+    let written = read_back("glb", &file.bytes);
+    assert_eq!(faults(&written), Vec::<String>::new());
+    assert_eq!(written.meshes[1].primitives[0].morph_targets[1].positions, vec![Vec3::ZERO; 7]);
+    if let Some(folder) = skip::evaluators() {
+        let path = std::env::temp_dir().join(format!("zeros-{}.glb", std::process::id()));
+        std::fs::write(&path, &file.bytes).expect("a file");
+        let found = issues(&folder, std::slice::from_ref(&path));
+        std::fs::remove_file(&path).expect("the file");
+        assert!(!found[0].keys().any(|code| code.starts_with("ACCESSOR")), "{found:?}");
+    }
 }
 
 #[test]

@@ -16,6 +16,7 @@ mod image_memory;
 mod images;
 mod import_options;
 mod import_takes;
+mod import_vrma;
 mod inbetween;
 mod journal_later;
 mod keeping;

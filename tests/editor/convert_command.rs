@@ -185,3 +185,37 @@ fn an_open_job_description_runs_in_its_reference_program() {
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stdout));
     assert_eq!(files_below(&output), outputs.into_iter().map(str::to_owned).collect());
 }
+
+#[test]
+fn curves_are_written_as_tables_and_takes_are_baked_at_a_rate() {
+    let folder = Folder::new("convert-curves");
+    let (csv, json) = (folder.join("Fox.csv"), folder.join("Fox.JSON"));
+    let fox = data("gltf/Fox.glb");
+    let printed = run(["convert", text(&fox), "-o", text(&csv)]).expect(0);
+    assert!(printed.text().contains("only curves are stored"), "{}", printed.text());
+    run(["convert", text(&fox), "-o", text(&json)]).expect(0);
+    let info = run(["info", text(&fox), "--json"]).expect(0).json();
+    let table = fs::read_to_string(&csv).expect("a table");
+    let takes: BTreeSet<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert_eq!(takes, BTreeSet::from(["Run", "Survey", "Walk"]));
+    let tree: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(&json).expect("a tree")).expect("JSON");
+    assert_eq!(tree["takes"].as_array().map(Vec::len), info["takes"].as_array().map(Vec::len));
+    // A table is no model.
+    let refused = run(["info", text(&csv)]).expect(2);
+    assert!(refused.stderr.contains("has no known format"), "{}", refused.stderr);
+
+    let [bvh, glb] = ["Fox.bvh", "Fox.glb"].map(|name| folder.join(name));
+    for output in [&bvh, &glb] {
+        run(["convert", text(&fox), "-o", text(output), "--bake", "50"]).expect(0);
+    }
+    let motion = fs::read_to_string(&bvh).expect("a motion");
+    assert!(
+        motion.contains("Frame Time: 0.02000000"),
+        "{}",
+        &motion[motion.find("Frame Time").unwrap_or(0)..][..30]
+    );
+    run(["diff", text(&fox), text(&glb), "--tolerance", "50"]).expect(0);
+    let refused = run(["convert", text(&fox), "-o", text(&glb), "--bake", "0"]).expect(2);
+    assert!(refused.stderr.contains("greater than zero"), "{}", refused.stderr);
+}

@@ -92,3 +92,18 @@ fn an_edit_that_does_not_fit_the_older_version_stops_the_command() {
     assert!(done.stderr.contains("line 1: there is no take \"Fly\""), "{}", done.stderr);
     assert!(!out.exists());
 }
+
+#[test]
+fn the_older_version_is_read_with_the_import_options_of_the_file() {
+    let folder = Folder::new("rebase-options");
+    let [new, edits, out] = ["new.bvh", "edits.jsonl", "out.bvh"].map(|name| folder.join(name));
+    let old = data("bvh/pybvh_example.bvh");
+    fs::copy(&old, &new).expect("a copy");
+    // Only at 25 frames per second there is a key at 0.08 s.
+    let edit = r#"{"edit":"delete_keys","take":0,"keys":[{"from":0.079,"to":0.081}]}"#;
+    fs::write(&edits, format!("{edit}\n")).expect("a file");
+    let [old, new, edits, out] = [&old, &new, &edits, &out].map(|path| text(path));
+    let arguments = ["edit", &new, "--rebase", &old, "--edits", &edits, "-o", &out];
+    run(arguments).expect(2);
+    run([&arguments[..], &["--rate", "25"]].concat()).expect(0);
+}

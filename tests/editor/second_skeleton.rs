@@ -5,6 +5,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::compared::CompareWith;
 use dragonfly::panels::prompts::Overlay;
 use dragonfly::panels::{Effect, FileAction, Request};
+use dragonfly_anim::data::HumanBone;
 use dragonfly_document::{BoneMap, DocumentMessage, LoadedModel, Source};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::SecondSkeleton;
@@ -72,6 +73,36 @@ fn the_source_of_a_take_stands_beside_the_model_while_the_dialog_is_open() {
     assert!(Arc::ptr_eq(&shown.take, &source.model.animation.takes[1]));
     click(&mut animator, "Show the source beside the model");
     assert_eq!(second(&animator), None);
+}
+
+/// Parts of the body, and the bones of the fixture that are to be them; none is below another one.
+const PARTS: [&str; 8] =
+    ["hips", "spine", "head", "leftUpperArm", "rightUpperArm", "leftUpperLeg", "rightUpperLeg", "jaw"];
+
+/// Makes the bones `first`, `first + 1` … of a model the parts of the body.
+fn make_figure(loaded: &mut Arc<LoadedModel>, first: u32) {
+    let loaded = Arc::make_mut(loaded);
+    let human = |(bone, name): (u32, &&str)| HumanBone { name: (*name).to_owned(), bone };
+    Arc::make_mut(&mut loaded.model).avatar.bones = (first..).zip(&PARTS).map(human).collect();
+}
+
+#[test]
+fn parts_of_the_body_that_both_files_name_are_the_first_guess_of_the_map() {
+    let mut view = fixture::full();
+    make_figure(&mut view.loaded, 0);
+    let mut animator = Animator::new(view);
+    let mut source = fixture::view("other.glb", fixture::skeleton(4), &[("Jump", 1.0, 5)]).loaded;
+    make_figure(&mut source, 3);
+    let skeleton = &mut Arc::make_mut(&mut Arc::make_mut(&mut source).model).animation.skeleton;
+    for (index, bone) in Arc::make_mut(skeleton).bones.iter_mut().enumerate() {
+        bone.name = format!("S{index}");
+    }
+    animator.request(Request::Command(Id::Retarget));
+    animator.steps(2);
+    animator.harness.state_mut().state.source_read(source);
+    animator.steps(3);
+    let text = format!("{} of 64 bones move", PARTS.len());
+    assert!(animator.harness.query_by_label_contains(&text).is_some(), "the bones have no name in common");
 }
 
 /// A bone of the source, and the bone of the model that it moves.

@@ -212,6 +212,8 @@ impl RoundTrip {
             if !before.use_phong {
                 let roughness = (before.metallic.roughness - after.metallic.roughness).abs();
                 assert!(roughness < 1e-4, "{place}: roughness {roughness}");
+                let metallic = (before.metallic.metallic - after.metallic.metallic).abs();
+                assert!(metallic < 1e-6, "{place}: metallic {metallic}");
             }
             let bytes = |model: &ModelData, texture: &Option<TextureRef>| {
                 let image = model.images.get(texture.as_ref()?.image as usize)?;

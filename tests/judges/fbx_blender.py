@@ -5,7 +5,7 @@ Usage:
     dragonfly convert Hero.glb -o Hero.fbx
     venv/bin/python fbx_blender.py Hero.fbx
 
-Imports the file, prints what is in it, and prints the world position of every bone head of every action at five frames as JSON
+Imports the file, prints what is in it, materials included, and prints the world position of every bone head of every action at five frames as JSON
 lines: {"action", "seconds", "heads": {bone: [x, y, z]}}; meters, Z up. With a second FBX file of the same model, prints the
 largest distance between the heads of both files instead.
 """
@@ -35,6 +35,11 @@ def summary(path, objects):
                   f"{[m.name for m in one.data.materials]}, {[uv.name for uv in one.data.uv_layers]}")
         print(f"  {one.name}: location {tuple(round(x, 4) for x in one.location)}, "
               f"scale {tuple(round(x, 4) for x in one.scale)}")
+    for material in bpy.data.materials:
+        shader = material.node_tree.nodes.get("Principled BSDF") if material.node_tree else None
+        values = ("Metallic", "Roughness", "Specular IOR Level", "Alpha")
+        found = {name: round(shader.inputs[name].default_value, 4) for name in values} if shader else {}
+        print(f"  {material.name}: {found}")
     print("  images:", [(image.name, tuple(image.size)) for image in bpy.data.images])
 
 

@@ -11,6 +11,8 @@
 //! format of the list: its own files are recognized by their content, what is written reads back, and damaged files are
 //! errors.
 //!
+//! A format that is only written is one line in [`TABLES`].
+//!
 //! # Units and axes
 //!
 //! Models are in meters, Y up, right-handed. [`Conversion`] describes what a file has instead, and where that is known
@@ -38,6 +40,7 @@
 pub mod bvh;
 mod context;
 mod convention;
+mod curves;
 mod definition;
 pub mod dfm;
 mod edited;
@@ -69,6 +72,7 @@ pub mod x;
 
 pub use context::ImportContext;
 pub use convention::{AxisMap, ConventionSource, Conventions, Conversion, Found, Handedness, UpAxis};
+pub use curves::{CURVES_CSV, CURVES_JSON};
 pub use definition::{
     ExportModel, Format, Imported, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport,
 };
@@ -94,6 +98,9 @@ pub const BUILTIN: &[Format] = &[
     m3d::M3D,
     x::X,
 ];
+
+/// The formats of this crate that are written and never read: tables for other programs.
+pub const TABLES: &[Format] = &[CURVES_CSV, CURVES_JSON];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.
 ///

@@ -64,6 +64,7 @@
 mod attach;
 mod binding;
 mod convention;
+mod expressions;
 mod figure;
 mod guess;
 mod names;
@@ -79,6 +80,7 @@ mod twist;
 
 pub use binding::{BindError, SkeletonBinding, rebind};
 pub use convention::{BodyPart, BoneRole, SkeletonRoles};
+pub use expressions::retarget_expressions;
 pub use figure::{FigureError, FigureOptions, Retargeted, retarget_figure};
 pub use guess::BindingGuess;
 pub use names::normalized_name;

@@ -9,6 +9,7 @@ use super::owner::Document;
 use crate::edit::{AddTakes, Edit};
 use crate::text::sentence;
 use dragonfly_runtime::{Job, JobContext};
+use std::sync::Arc;
 use std::time::Instant;
 
 impl Document {
@@ -18,6 +19,7 @@ impl Document {
             return self.reply(DocumentReply::Refused("Open a model first".to_owned()));
         };
         let (adapter, load) = (open.edited.adapter().clone(), self.load);
+        let target = Arc::clone(&open.loaded.model);
         let count = order.files.len();
         let work = move |job: &JobContext<JobNews>| {
             let mut progress = |read: usize| {
@@ -25,7 +27,7 @@ impl Document {
                     JobNews::Clips(ClipNews::Progress(read, count))
                 });
             };
-            let done = imported(&order, &adapter, load, job.cancel_flag(), &mut progress);
+            let done = imported(&order, &adapter, &target, load, job.cancel_flag(), &mut progress);
             JobNews::Clips(match job.is_cancelled() {
                 true => ClipNews::Failed("the import was cancelled".to_owned()),
                 false => ClipNews::Done(done),

@@ -6,6 +6,7 @@ use super::clips::{ClipSettings, ClipTakes, TakeNames, clip_takes};
 use super::source::file_name;
 use super::{Cancel, Loader, Source};
 use crate::edit::AddTake;
+use dragonfly_anim::data::ModelData;
 use dragonfly_anim::retarget::FigureOptions;
 
 /// News of the job.
@@ -64,10 +65,11 @@ impl ImportedClips {
     }
 }
 
-/// Reads the files one after the other. One that cannot be imported does not stop the others.
+/// Reads the files one after the other, for the model `target` with the takes of `adapter`. One that cannot be imported does not stop the others.
 pub(super) fn imported(
     order: &ClipOrder,
     adapter: &ModelAdapter,
+    target: &ModelData,
     load: Loader,
     cancel: &Cancel,
     progress: &mut dyn FnMut(usize),
@@ -84,11 +86,11 @@ pub(super) fn imported(
         let done = load(&Source::File(path.clone()), &mut |_| {}, cancel)
             .map_err(|error| error.to_string())
             .and_then(|opened| {
-                let animation = &opened.loaded.model.animation;
-                if animation.takes.is_empty() {
+                let clip = &opened.loaded.model;
+                if clip.animation.takes.is_empty() {
                     return Err(format!("{title}: the file has no takes"));
                 }
-                clip_takes(&title, animation, &|_, _| true, adapter.skeleton(), &mut names, &settings)
+                clip_takes(&title, clip, &|_, _| true, target, &mut names, &settings)
                     .map_err(|reason| format!("{title}: {reason}"))
             });
         match done {

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 pub struct ClipOrder {
     /// The files.
     pub files: Vec<PathBuf>,
-    /// The map of bones; guessed from their names for each file where absent.
+    /// The map of bones; guessed for each file where absent.
     pub map: Option<BoneMap>,
     /// Whether feet stay where they touch the ground.
     pub contacts: bool,

@@ -4,8 +4,10 @@
 use super::bone_map::BoneMap;
 use crate::adapter::ModelAdapter;
 use crate::edit::AddTake;
-use dragonfly_anim::data::{AnimationData, BoneIndex, Skeleton, Take};
-use dragonfly_anim::retarget::{BindingGuess, FigureOptions, SkeletonBinding, retarget_figure};
+use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton, Take};
+use dragonfly_anim::retarget::{
+    BindingGuess, FigureOptions, SkeletonBinding, retarget_expressions, retarget_figure,
+};
 use std::collections::HashSet;
 
 /// Names of takes that programs give by themselves, in lower case; takes with these names are called after their file.
@@ -36,7 +38,7 @@ pub enum ClipNaming {
 /// How takes of other files become takes of a model.
 #[derive(Clone, Debug, Default)]
 pub struct ClipSettings {
-    /// The map of bones; guessed from their names where absent.
+    /// The map of bones; guessed from the parts of the body that the files name, or from the names of bones, where absent.
     pub map: Option<BoneMap>,
     /// Options for retargeting.
     pub figure: FigureOptions,
@@ -82,30 +84,32 @@ impl TakeNames {
     }
 }
 
-/// Returns the takes of the file called `title`, of which `chosen` are wanted, for the skeleton `target`.
+/// Returns the takes of the file called `title`, of which `chosen` are wanted, for the model `target`. Facial expressions of a VRM
+/// animation set the shape keys of a VRM model.
 ///
 /// # Errors
 ///
 /// No bone is matched, or a take cannot be retargeted: the reason, as text.
 pub fn clip_takes(
     title: &str,
-    animation: &AnimationData,
+    clip: &ModelData,
     chosen: &dyn Fn(usize, &Take) -> bool,
-    target: &Skeleton,
+    target: &ModelData,
     names: &mut TakeNames,
     settings: &ClipSettings,
 ) -> Result<ClipTakes, String> {
-    let source = &*animation.skeleton;
+    let (source, to) = (&*clip.animation.skeleton, &*target.animation.skeleton);
     let (binding, missing) = match &settings.map {
-        Some(map) => map.binding(source, target)?,
-        None => (BindingGuess::of(source, target).binding, Vec::new()),
+        Some(map) => map.binding(source, to)?,
+        None => (BindingGuess::of_models(clip, target).binding, Vec::new()),
     };
     if binding.bound() == 0 {
         return Err("no bone has the name of a bone of the model; correct the map of bones".to_owned());
     }
     let mut result = ClipTakes { bound: binding.bound(), missing, is_copied: true, ..ClipTakes::default() };
     let mut moved: Vec<BoneIndex> = Vec::new();
-    let takes: Vec<(usize, &Take)> = animation
+    let takes: Vec<(usize, &Take)> = clip
+        .animation
         .takes
         .iter()
         .map(|take| &**take)
@@ -115,12 +119,16 @@ pub fn clip_takes(
     for (_, take) in &takes {
         moved.extend(take.tracks.iter().filter(|track| !track.is_empty()).map(|track| track.bone));
         let name = names.unused(&take_name(title, take, takes.len(), settings.naming));
-        let done = retarget_figure(take, source, target, &binding, &settings.figure)
+        let done = retarget_figure(take, source, to, &binding, &settings.figure)
             .map_err(|error| format!("take {:?}: {error}", take.name))?;
         result.is_copied &= done.is_copied;
         result.slide = result.slide.max(done.slide_after);
-        result.takes.push(AddTake::of(name, &done.take));
+        let shapes = retarget_expressions(take, &clip.avatar, target);
+        result.takes.push(AddTake::of(name, &done.take).with_shapes(&shapes));
     }
+    // The bones of expressions carry weights.
+    let weights: Vec<BoneIndex> = clip.avatar.expressions.iter().filter_map(|it| it.weight_bone).collect();
+    moved.retain(|bone| !weights.contains(bone));
     result.unmatched = unmatched(source, &binding, moved);
     Ok(result)
 }
@@ -161,11 +169,11 @@ fn file_stem(title: &str) -> String {
 mod tests {
     use super::*;
     use crate::about::tests::bone;
-    use dragonfly_anim::data::{Channel, Interpolation, Track};
+    use dragonfly_anim::data::{AnimationData, Channel, Interpolation, Track};
     use glam::Quat;
     use std::sync::Arc;
 
-    fn clip(bones: &[&str], takes: &[&str]) -> AnimationData {
+    fn clip(bones: &[&str], takes: &[&str]) -> ModelData {
         let turns = [Quat::IDENTITY, Quat::from_rotation_x(0.5)];
         let turn = Channel::new([0.0, 1.0], turns, Interpolation::Linear);
         let track = |bone| Track { bone, rotation: turn.clone(), ..Track::default() };
@@ -175,14 +183,15 @@ mod tests {
             Arc::new(Take { name, length: 1.0, tracks: tracks.clone(), ..Take::default() })
         };
         let skeleton = Arc::new(Skeleton { bones: bones.iter().map(|name| bone(name)).collect() });
-        AnimationData { skeleton, takes: takes.iter().map(take).collect() }
+        let animation = AnimationData { skeleton, takes: takes.iter().map(take).collect() };
+        ModelData { animation, ..ModelData::default() }
     }
 
     fn named(title: &str, takes: &[&str], naming: ClipNaming) -> Vec<String> {
         let clip = clip(&["hips"], takes);
         let settings = ClipSettings { naming, ..ClipSettings::default() };
         let mut names = TakeNames::default();
-        let takes = clip_takes(title, &clip, &|_, _| true, &clip.skeleton, &mut names, &settings);
+        let takes = clip_takes(title, &clip, &|_, _| true, &clip, &mut names, &settings);
         takes.expect("takes").takes.into_iter().map(|take| take.name).collect()
     }
 
@@ -200,7 +209,7 @@ mod tests {
 
     #[test]
     fn a_clip_of_the_same_skeleton_is_copied_and_moved_bones_without_a_match_are_listed() {
-        let target = clip(&["hips", "spine"], &[]).skeleton;
+        let target = clip(&["hips", "spine"], &[]);
         let mut names = TakeNames(HashSet::from(["Walk".to_owned()]));
         let mut takes = |bones: &[&str], name: &str| {
             let (clip, settings) = (clip(bones, &[name]), ClipSettings::default());

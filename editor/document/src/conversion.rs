@@ -1,8 +1,9 @@
 //! Conversion of a model file into a new file of any format that is written.
 
-use super::import::formats;
+use super::import::{formats, written_format, written_formats};
 use super::source::{LoadError, file_name};
 use super::{Cancel, Folder, make_folder, read_file};
+use dragonfly_anim::bake::baked;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{
     Conventions, Conversion, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
@@ -11,6 +12,7 @@ use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_fbx::{ExportPreset, FBX, PRESETS, export_with};
 use dragonfly_store::{folder_of, replace};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// A file to convert. The extension of `output` determines the format that is written.
@@ -24,6 +26,8 @@ pub struct ConversionOrder {
     pub conventions: Conventions,
     /// Name of the preset of the format, see [`export`].
     pub preset: Option<String>,
+    /// Frames per second of keys that replace those of the takes, see [`baked`].
+    pub bake: Option<f32>,
     /// Whether to write the file, or only to find out what would be lost.
     pub is_written: bool,
 }
@@ -113,9 +117,8 @@ pub fn checked_preset(format: &Format, name: &str) -> Result<&'static ExportPres
 
 /// Returns the extensions of the formats that are written, with their dots.
 pub fn written_extensions() -> String {
-    let formats = formats();
-    let written = formats.iter().filter(|format| format.export.is_some());
-    written.map(|format| format!(".{}", format.extension())).collect::<Vec<_>>().join(", ")
+    let written = written_formats();
+    written.iter().map(|format| format!(".{}", format.extension())).collect::<Vec<_>>().join(", ")
 }
 
 /// Reads a file and writes it in another format. Textures are read only from the folder of the file.
@@ -126,8 +129,7 @@ pub fn written_extensions() -> String {
 pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile, ConversionError> {
     let title = file_name(&order.input);
     let formats = formats();
-    let target = order.output.extension().and_then(|extension| formats.by_extension(extension.to_str()?));
-    let target = target.filter(|target| target.export.is_some());
+    let target = order.output.extension().and_then(|extension| written_format(extension.to_str()?));
     let target = target.ok_or_else(|| ConversionError::NotWritable {
         path: order.output.clone(),
         formats: written_extensions(),
@@ -148,9 +150,18 @@ pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile
         error => LoadError::Format { title: title.clone(), reason: error.to_string() },
     })?;
     drop(bytes);
+    let mut imported = imported;
     let name = file_name(&order.output);
-    let plan = export(target, &imported.model, &name, order.preset.as_deref())
-        .map_err(|error| ConversionError::Export { title: title.clone(), reason: error.to_string() })?;
+    let failed = |reason: String| ConversionError::Export { title: title.clone(), reason };
+    if let Some(rate) = order.bake {
+        for take in &mut imported.model.animation.takes {
+            *take = Arc::new(
+                baked(take, rate).map_err(|error| failed(format!("take {:?}: {error}", take.name)))?,
+            );
+        }
+    }
+    let plan = export(&target, &imported.model, &name, order.preset.as_deref())
+        .map_err(|error| failed(error.to_string()))?;
     if order.is_written {
         write_files(&order.output, &plan)?;
     }

@@ -1,7 +1,7 @@
 //! Files of other formats from a model: all of it, a part of it, or each take as a file of its own.
 
 use super::conversion::{checked_preset, export, write_files, written_extensions};
-use super::import::formats;
+use super::import;
 use super::make_folder;
 use super::source::file_name;
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
@@ -95,7 +95,7 @@ impl ExportQuestions {
 /// The extension is not one of a format that is written, the format has no such preset or cannot represent the model, or a file cannot
 /// be written: path or preset, and the reason. Files that were written before stay.
 pub fn export_files(model: &ModelData, order: &ExportOrder) -> Result<ExportReport, String> {
-    let format = written_format(&order.output)?;
+    let format = format_of(&order.output)?;
     if let Some(preset) = &order.preset {
         checked_preset(&format, preset)?;
     }
@@ -141,11 +141,9 @@ impl ExportReport {
 }
 
 /// Returns the format of a file, by its extension.
-fn written_format(path: &Path) -> Result<Format, String> {
+fn format_of(path: &Path) -> Result<Format, String> {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    let formats = formats();
-    let found = formats.by_extension(extension).filter(|format| format.export.is_some()).copied();
-    found.ok_or_else(|| {
+    import::written_format(extension).ok_or_else(|| {
         format!("{}: files of this kind cannot be written; use {}", path.display(), written_extensions())
     })
 }

@@ -5,13 +5,24 @@ use super::source::LoadError;
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{
-    AssetFs, Conventions, Conversion, Format, Formats, ImportError, NoFiles, ReadOptions,
+    AssetFs, Conventions, Conversion, Format, Formats, ImportError, NoFiles, ReadOptions, TABLES,
 };
 use dragonfly_fbx::FBX;
 
 /// Returns the file formats that the program knows: what it opens, saves, and lists in dialogs and help texts.
 pub fn formats() -> Formats {
     Formats::builtin().with(FBX)
+}
+
+/// Returns the formats in which the program writes new files: those that it knows, and tables for other programs.
+pub fn written_formats() -> Vec<Format> {
+    let formats = formats();
+    formats.iter().chain(TABLES).filter(|format| format.export.is_some()).copied().collect()
+}
+
+/// Returns the format in which files with this extension are written, given without the dot and in any case.
+pub fn written_format(extension: &str) -> Option<Format> {
+    written_formats().into_iter().find(|format| format.has_extension(extension))
 }
 
 /// An imported model.

@@ -85,7 +85,7 @@ pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{FileAccessError, Folder, read_file};
 pub use handle::DocumentHandle;
 pub use images::DecodedImage;
-pub use import::formats;
+pub use import::{formats, written_format, written_formats};
 pub use load::{Loader, OpenedModel, load_model, open_model};
 pub use message::{DocumentMessage, DocumentReply};
 pub use offer::Offer;

@@ -4,8 +4,8 @@ use super::LoadedModel;
 use super::bone_map::BoneMap;
 use crate::adapter::ModelAdapter;
 use crate::edit::AddTake;
-use dragonfly_anim::data::BoneIndex;
-use dragonfly_anim::retarget::{FigureOptions, SkeletonBinding, retarget_figure};
+use dragonfly_anim::data::{BoneIndex, ModelData};
+use dragonfly_anim::retarget::{FigureOptions, SkeletonBinding, retarget_expressions, retarget_figure};
 use dragonfly_runtime::Job;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -71,15 +71,16 @@ pub(super) fn write_map(path: &std::path::Path, map: &BoneMap) -> Result<(), Str
     written.map(|_| ()).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Returns the edit that adds the take, and a sentence about it.
+/// Returns the edit that adds the take to the model `target`, with the takes of `adapter`, and a sentence about it.
 pub(super) fn computed(
     source: &LoadedModel,
     adapter: &ModelAdapter,
+    target: &ModelData,
     order: &RetargetOrder,
 ) -> Result<(Box<AddTake>, String), String> {
     let animation = &source.model.animation;
     let take = animation.takes.get(order.take).ok_or("the source has no such take")?;
-    let (from, to) = (&*animation.skeleton, &**adapter.skeleton());
+    let (from, to) = (&*animation.skeleton, &*target.animation.skeleton);
     let binding = SkeletonBinding::from_map(from, to, &order.pairs).map_err(|error| error.to_string())?;
     let done =
         retarget_figure(take, from, to, &binding, &order.options).map_err(|error| error.to_string())?;
@@ -92,5 +93,6 @@ pub(super) fn computed(
         count => format!(", {count} contacts of feet within {:.1} mm", done.slide_after),
     };
     let text = format!("Added {name}: {} bones move{feet}", binding.bound());
-    Ok((Box::new(AddTake::of(name, &done.take)), text))
+    let shapes = retarget_expressions(take, &source.model.avatar, target);
+    Ok((Box::new(AddTake::of(name, &done.take).with_shapes(&shapes)), text))
 }

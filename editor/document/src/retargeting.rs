@@ -32,10 +32,10 @@ impl Document {
         let (Some(source), Some(open)) = (self.retargeting.source.clone(), &self.open) else {
             return self.reply(DocumentReply::Refused("No source is open".to_owned()));
         };
-        let adapter = open.edited.adapter().clone();
+        let (adapter, target) = (open.edited.adapter().clone(), Arc::clone(&open.loaded.model));
         self.retarget_job(
             "retarget",
-            move |_| RetargetNews::Take(computed(&source, &adapter, &order)),
+            move |_| RetargetNews::Take(computed(&source, &adapter, &target, &order)),
             |panic| RetargetNews::Take(Err(format!("the take could not be computed: {panic}"))),
         );
     }

@@ -111,7 +111,7 @@ impl EditArguments {
             }
             return Ok((adapter, Vec::new()));
         };
-        let old = Editable::open(&source(old), &Cancel::default())?;
+        let old = Editable::open(&source_as(old, &self.import), &Cancel::default())?;
         let mut rebase = Rebase::new(ModelAdapter::of(&old.model), &editable.model);
         for (line, edit) in edits {
             let done = rebase.old().allows(edit).and_then(|()| rebase.apply(*line, edit));

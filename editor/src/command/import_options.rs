@@ -74,7 +74,7 @@ impl ImportArguments {
     }
 }
 
-fn positive(text: &str) -> Result<f32, String> {
+pub(super) fn positive(text: &str) -> Result<f32, String> {
     match finite(text)? {
         number if number > 0.0 => Ok(number),
         _ => Err("must be greater than zero".to_owned()),

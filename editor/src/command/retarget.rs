@@ -8,7 +8,9 @@ use super::run_command::RunCommand;
 use super::table::{Side, Table};
 use super::{Failure, tell};
 use dragonfly_anim::data::{Skeleton, Take};
-use dragonfly_anim::retarget::{BindingGuess, FigureOptions, SkeletonBinding, retarget_figure};
+use dragonfly_anim::retarget::{
+    BindingGuess, FigureOptions, SkeletonBinding, retarget_expressions, retarget_figure,
+};
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{AddTake, Edit};
 use dragonfly_document::{BoneMap, Cancel, Editable, read_file};
@@ -63,15 +65,16 @@ impl RunCommand for RetargetArguments {
             let map = BoneMap::of([&from.title, &editable.title], source, target, &binding);
             write_file(path, map.to_text().as_bytes())?;
         }
-        let mut adapter = ModelAdapter::new(&editable.model.animation);
+        let mut adapter = ModelAdapter::of(&editable.model);
         let mut takes = Vec::new();
         for take in self.chosen(&from.title, &from.model.animation.takes)? {
             let options = FigureOptions { contacts: !self.no_contacts, ..FigureOptions::default() };
             let done = retarget_figure(take, source, target, &binding, &options)
                 .map_err(|error| Failure::input(&take.name, error))?;
+            let shapes = retarget_expressions(take, &from.model.avatar, &editable.model);
             let name = unused_name(&adapter, &take.name);
             adapter
-                .apply(&Edit::AddTake(AddTake::of(name.clone(), &done.take)))
+                .apply(&Edit::AddTake(AddTake::of(name.clone(), &done.take).with_shapes(&shapes)))
                 .map_err(|error| Failure::input(&take.name, error))?;
             takes.push(RetargetedTake {
                 take: take.name.clone(),

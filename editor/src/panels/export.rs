@@ -8,7 +8,8 @@ use super::theme::Theme;
 use super::widgets;
 use dragonfly_anim::format::Format;
 use dragonfly_document::{
-    DocumentMessage, ExportContent, ExportOrder, ExportReport, View, export_presets, formats,
+    DocumentMessage, ExportContent, ExportOrder, ExportReport, View, export_presets, written_format,
+    written_formats,
 };
 use egui::{Align, Button, ComboBox, Grid, Layout, Margin, RichText, ScrollArea, TextEdit, TextStyle, Ui};
 use std::path::{Path, PathBuf};
@@ -110,7 +111,7 @@ impl ExportDialog {
     /// Returns the format that the path names.
     fn format(&self) -> Option<Format> {
         let extension = Path::new(self.path.trim()).extension()?.to_str()?.to_owned();
-        formats().by_extension(&extension).filter(|format| format.export.is_some()).copied()
+        written_format(&extension)
     }
 
     fn choices(&mut self, ui: &mut Ui, format: Option<Format>, context: &PanelContext<'_>) {
@@ -156,8 +157,8 @@ impl ExportDialog {
         let text = format.map_or("Not a format that is written", |format| format.title);
         let list = ComboBox::from_id_salt("format").selected_text(text).width(220.0);
         let list = list.show_ui(ui, |ui| {
-            for other in formats().iter().filter(|format| format.export.is_some()) {
-                if ui.selectable_label(format == Some(*other), other.title).clicked() {
+            for other in written_formats() {
+                if ui.selectable_label(format == Some(other), other.title).clicked() {
                     let path = Path::new(self.path.trim()).with_extension(other.extension());
                     self.path = path.display().to_string();
                 }

@@ -10,7 +10,7 @@ use super::source_place::SourcePlace;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::widgets;
-use dragonfly_anim::data::{BoneIndex, Skeleton};
+use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::retarget::{BindingGuess, BoneRole, FigureOptions, SkeletonBinding};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{BoneMap, ClipOrder, DocumentMessage, LoadedModel, MapFile, RetargetOrder, Source};
@@ -76,7 +76,7 @@ impl RetargetDialog {
             ui.label(RichText::new(text).small().color(theme.weak));
             return;
         };
-        self.adopt(context, source, &loaded.model.animation.skeleton);
+        self.adopt(context, source, &loaded.model);
         self.heading(ui, source);
         self.rows(ui, context, source, requests);
         self.map_row(ui, context, source, requests);
@@ -85,12 +85,13 @@ impl RetargetDialog {
     }
 
     /// Guesses the map of new models, and applies a map that was read.
-    fn adopt(&mut self, context: &PanelContext<'_>, source: &Arc<LoadedModel>, target: &Arc<Skeleton>) {
+    fn adopt(&mut self, context: &PanelContext<'_>, source: &Arc<LoadedModel>, model: &ModelData) {
+        let target = &model.animation.skeleton;
         if let SkeletonChange::Shifted(shift) = self.of.follow(context.view)
             && let Some((from, to, guess)) = &mut self.models
         {
             // Bones of the open model have other indices; the map stays as the user has it.
-            *guess = BindingGuess::of(&from.model.animation.skeleton, target);
+            *guess = BindingGuess::of_models(&from.model, model);
             *to = Arc::clone(target);
             let kept = self.source_of.iter().skip(shift.removed()).copied();
             self.source_of = std::iter::repeat_n(None, shift.added()).chain(kept).collect();
@@ -99,7 +100,7 @@ impl RetargetDialog {
             Arc::ptr_eq(from, source) && Arc::ptr_eq(to, target)
         };
         if !self.models.as_ref().is_some_and(known) {
-            let guess = BindingGuess::of(&source.model.animation.skeleton, target);
+            let guess = BindingGuess::of_models(&source.model, model);
             self.source_of.clone_from(&guess.binding.source_of);
             self.models = Some((Arc::clone(source), Arc::clone(target), guess));
             (self.take, self.map) = (0, None);

@@ -4,6 +4,8 @@ mod agreement;
 mod damage;
 mod import;
 pub(crate) mod made;
+pub(crate) mod rate;
+mod roots;
 mod save;
 mod save_random;
 mod whole;

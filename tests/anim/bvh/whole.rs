@@ -5,7 +5,6 @@ use crate::doors::{TestFolder, model_files};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::{Conventions, NoFiles, ReadOptions, bvh, read};
-use dragonfly_anim::frames::frame_rate;
 use std::sync::Arc;
 
 /// Reads a written file; its lengths are in centimeters.
@@ -25,13 +24,12 @@ fn distance(model: &ModelData, written: &ModelData) -> f32 {
         (0..written.animation.skeleton.len()).filter_map(|index| Some((index, bone_of(index)?))).collect();
     assert!(pairs.len() >= model.animation.skeleton.len().min(written.animation.skeleton.len()) / 2);
     let take = model.animation.takes.first();
-    let (start, rate) =
-        take.map_or((0.0, 30.0), |take| (take.range_of_keys().unwrap_or_default().0, frame_rate(take)));
-    let frames = written.animation.takes[0].tracks[0].rotation.len();
+    let start = take.and_then(|take| take.range_of_keys()).unwrap_or_default().0;
+    let tracks = &written.animation.takes[0].tracks;
+    let times = &tracks.iter().find(|track| !track.rotation.is_empty()).unwrap().rotation.times;
     let [mut ours, mut theirs] = [model, written].map(|model| Evaluator::new(Arc::new(model.clone())));
     let (mut worst, mut size) = (0.0_f32, 1e-3_f32);
-    for frame in (0..frames).step_by((frames / 7).max(1)) {
-        let time = frame as f32 / rate;
+    for &time in times.iter().step_by((times.len() / 7).max(1)) {
         ours.pose(Some(0), start + time);
         theirs.pose(Some(0), time);
         for &(there, here) in &pairs {

@@ -36,5 +36,7 @@ pub const KEYS_BETWEEN_FRAMES: &str = "KEYS_BETWEEN_FRAMES";
 pub const INTERPOLATION_NOT_STORED: &str = "INTERPOLATION_NOT_STORED";
 /// The file does not contain its unit, and it is one that readers do not guess from the size of the figure.
 pub const UNIT_NOT_STORED: &str = "UNIT_NOT_STORED";
+/// Several root bones are below one more joint in the file.
+pub const COMMON_ROOT_ADDED: &str = "COMMON_ROOT_ADDED";
 /// A take starts at zero in the file.
 pub const START_NOT_STORED: &str = "START_NOT_STORED";

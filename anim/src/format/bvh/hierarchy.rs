@@ -26,13 +26,18 @@ pub(super) struct Joint {
 /// The joints, in the order of the file.
 pub(super) struct JointTable {
     pub(super) joints: Vec<Joint>,
-    /// Number of columns.
+    /// Number of columns, with those of a common root.
     pub(super) channels: usize,
     /// Whether a motion follows.
     pub(super) has_motion: bool,
 }
 
 impl JointTable {
+    /// Returns the number of columns before those of the first joint; more than 0 if a common root was removed.
+    pub(super) fn columns_before(&self) -> usize {
+        self.joints.first().map_or(0, |joint| joint.first)
+    }
+
     /// Returns whether a column is a position.
     pub(super) fn is_position(&self, column: usize) -> bool {
         let own = |joint: &&Joint| (joint.first..joint.first + joint.channels.len()).contains(&column);

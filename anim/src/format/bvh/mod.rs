@@ -21,12 +21,15 @@
 mod angles;
 mod channel;
 pub mod check;
+mod common_root;
 mod hierarchy;
 mod model;
 mod motion;
 mod parsed;
+mod rate;
 mod sampled;
 pub mod save;
+mod scene_pose;
 mod unit;
 mod write;
 

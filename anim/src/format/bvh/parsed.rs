@@ -1,6 +1,7 @@
 //! A parsed file: what reading and saving start from.
 
 use super::check;
+use super::common_root;
 use super::hierarchy::{self, Joint, JointTable};
 use super::motion::{self, MotionHead, MotionRows};
 use super::unit;
@@ -22,7 +23,7 @@ pub(super) struct BvhText {
 impl BvhText {
     pub(super) fn parse(bytes: &[u8], context: &ImportContext<'_>) -> Result<Self, ImportError> {
         let mut scanner = TextScanner::new(bytes, &LEXICON);
-        let hierarchy = hierarchy::parse(&mut scanner, context)?;
+        let mut hierarchy = hierarchy::parse(&mut scanner, context)?;
         let mut rows = MotionRows { numbers: Vec::new(), frames: 0 };
         let mut head = None;
         if hierarchy.has_motion {
@@ -33,6 +34,7 @@ impl BvhText {
             let text = "the file has no motion; the model has no take";
             context.warn(scanner.place(scanner.at()), check::MOTION_MISSING, text);
         }
+        common_root::remove(&mut hierarchy, &rows);
         context.charge(&Place::File, hierarchy.joints.len() as u64 * 24)?;
         if context.conventions().up.is_none() && unit::seems_z_up(&hierarchy, &rows) {
             let text = "the figure seems to have z up, against the convention of the format; choose Z up if it is on its back";

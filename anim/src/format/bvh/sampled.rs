@@ -1,94 +1,56 @@
 //! A take as a BVH file has it: at frames, relative to a rest pose without rotations.
 
 use super::check as code;
-use crate::animation::to_root;
-use crate::data::{Skeleton, Take, Transform};
+use super::rate::FrameGrid;
+use super::scene_pose::{ScenePose, SceneSampler};
+use crate::data::{Skeleton, Take};
 use crate::format::losses::Losses;
-use crate::frames::{FramesError, MOST_POSES, frame_rate};
-use crate::sample::sample_take;
-use glam::{DQuat, DVec3, Mat4};
+use crate::frames::FramesError;
+use glam::{DQuat, DVec3};
 
-/// Share of a frame by which a key may be off its frame.
-const OFF_FRAME: f64 = 0.02;
-
-/// Rotations from the rest pose and positions of all bones in scene space, at every frame.
+/// Poses of all bones at every frame.
 pub(super) struct FramePoses {
-    rate: f32,
+    /// Frames per second.
+    rate: f64,
     parents: Vec<Option<usize>>,
     rest: Vec<DVec3>,
-    /// Frame by frame.
-    turned: Vec<DQuat>,
-    positions: Vec<DVec3>,
+    poses: Vec<ScenePose>,
     is_animated: Vec<bool>,
 }
 
 impl FramePoses {
-    /// Samples a take at the lowest usual rate that has its keys; without a take, the rest pose once.
+    /// Samples a take at the rate that [`FrameGrid`] chooses; without a take, the rest pose once.
     pub(super) fn of(
         take: Option<&Take>,
         skeleton: &Skeleton,
         losses: &mut Losses,
     ) -> Result<Self, FramesError> {
-        let bones = skeleton.len();
-        let rate = take.map_or(30.0, frame_rate);
-        let range = take.and_then(Take::range_of_keys).unwrap_or((0.0, 0.0));
-        let start = f64::from(range.0);
-        let last = (f64::from(range.1) - start) * f64::from(rate);
-        let frames = ((last - OFF_FRAME).ceil().max(0.0) as usize).saturating_add(1);
-        if frames.saturating_mul(bones) > MOST_POSES {
-            return Err(FramesError::TooMany { frames, bones });
-        }
-        if let Some(take) = take {
-            list_losses(take, start, rate, losses);
-        }
-        let parents = skeleton.bones.iter().map(|bone| bone.parent.map(|parent| parent as usize)).collect();
-        let mut sampled = Self {
-            rate,
-            parents,
-            rest: Vec::new(),
-            turned: Vec::with_capacity(frames * bones),
-            positions: Vec::with_capacity(frames * bones),
-            is_animated: (0..bones)
-                .map(|bone| {
-                    take.and_then(|take| take.tracks.get(bone)).is_some_and(|track| !track.is_empty())
-                })
-                .collect(),
+        let (mut sampler, rest) = SceneSampler::of(take, skeleton);
+        let grid = match take {
+            Some(take) => FrameGrid::of(take, skeleton, &mut sampler, losses)?,
+            None => FrameGrid { start: 0.0, rate: 30.0, frames: 1 },
         };
-        let mut locals = vec![Transform::IDENTITY; bones];
-        let mut matrices = vec![Mat4::IDENTITY; bones];
-        sample_take(None, skeleton, 0.0, &mut locals);
-        let rest_turns = sampled.rotations(&locals);
-        to_root(skeleton, &locals, &mut matrices);
-        sampled.rest = matrices.iter().map(origin).collect();
-        for frame in 0..frames {
-            let time = (start + frame as f64 / f64::from(rate)) as f32;
-            sample_take(take, skeleton, time, &mut locals);
-            let turns = sampled.rotations(&locals);
-            sampled.turned.extend(
-                turns.iter().zip(&rest_turns).map(|(turn, rest)| (*turn * rest.conjugate()).normalize()),
-            );
-            to_root(skeleton, &locals, &mut matrices);
-            sampled.positions.extend(matrices.iter().map(origin));
+        if grid.start != 0.0 {
+            let text = format!("the take starts at {} s, a BVH file always at 0 s", grid.start);
+            losses.add("/animation/takes/0/start".to_owned(), code::START_NOT_STORED, text);
         }
-        Ok(sampled)
-    }
-
-    /// Returns the rotations of bones in scene space.
-    fn rotations(&self, locals: &[Transform]) -> Vec<DQuat> {
-        let mut rotations: Vec<DQuat> = Vec::with_capacity(locals.len());
-        for (local, parent) in locals.iter().zip(&self.parents) {
-            let own = local.rotation.as_dquat().normalize();
-            rotations.push(parent.map_or(own, |parent| rotations[parent] * own));
-        }
-        rotations
+        let is_animated =
+            |bone: usize| take.and_then(|take| take.tracks.get(bone)).is_some_and(|track| !track.is_empty());
+        Ok(Self {
+            rate: grid.rate,
+            parents: skeleton.bones.iter().map(|bone| bone.parent.map(|parent| parent as usize)).collect(),
+            rest,
+            poses: (0..grid.frames).map(|frame| sampler.pose(grid.time(frame))).collect(),
+            is_animated: (0..skeleton.len()).map(is_animated).collect(),
+        })
     }
 
     pub(super) fn frames(&self) -> usize {
-        self.positions.len() / self.rest.len().max(1)
+        self.poses.len()
     }
 
     /// Returns the frames per second.
-    pub(super) fn rate(&self) -> f32 {
+    pub(super) fn rate(&self) -> f64 {
         self.rate
     }
 
@@ -110,41 +72,6 @@ impl FramePoses {
 
     /// Returns the rotation and the position of a bone relative to its parent in a frame.
     pub(super) fn local(&self, frame: usize, bone: usize) -> (DQuat, DVec3) {
-        let row = frame * self.rest.len();
-        let (turn, position) = (self.turned[row + bone], self.positions[row + bone]);
-        match self.parents[bone] {
-            None => (turn, position),
-            Some(parent) => {
-                let back = self.turned[row + parent].conjugate();
-                ((back * turn).normalize(), back * (position - self.positions[row + parent]))
-            }
-        }
-    }
-}
-
-fn origin(matrix: &Mat4) -> DVec3 {
-    matrix.w_axis.truncate().as_dvec3()
-}
-
-/// Lists keys that are not at a frame, and a start that is not zero.
-fn list_losses(take: &Take, start: f64, rate: f32, losses: &mut Losses) {
-    let off = |&&time: &&f32| {
-        let frame = (f64::from(time) - start) * f64::from(rate);
-        (frame - frame.round()).abs() > OFF_FRAME
-    };
-    let times = take
-        .tracks
-        .iter()
-        .flat_map(|track| [&track.translation.times, &track.rotation.times, &track.scale.times]);
-    let count: usize = times.map(|times| times.iter().filter(off).count()).sum();
-    if count > 0 {
-        let text = format!(
-            "{count} keys are not at one of {rate} frames per second; the frames have the values of the curves"
-        );
-        losses.add("/animation/takes/0/tracks".to_owned(), code::KEYS_BETWEEN_FRAMES, text);
-    }
-    if start != 0.0 {
-        let text = format!("the take starts at {start} s, a BVH file always at 0 s");
-        losses.add("/animation/takes/0/start".to_owned(), code::START_NOT_STORED, text);
+        self.poses[frame].local(bone, self.parents[bone])
     }
 }

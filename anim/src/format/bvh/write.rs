@@ -3,6 +3,7 @@
 use super::angles::angles;
 use super::channel::{BvhChannel, CHANNELS, ChannelList};
 use super::check as code;
+use super::common_root;
 use super::sampled::FramePoses;
 use super::save::spelled;
 use super::unit;
@@ -22,11 +23,13 @@ const MOVES: f64 = 1e-5;
 /// Text of a number that has the usual number of decimals.
 const SIX_DECIMALS: &[u8] = b"0.000000";
 
-/// Writes a model as a BVH file: the skeleton and the first take, at the lowest usual frame rate that has its keys.
+/// Writes a model as a BVH file: the skeleton and the first take, at the lowest usual frame rate that has its
+/// keys, or at the double of it, up to 240, until bones are within 0.1 % of the size of the figure of their curves between frames.
 ///
 /// Lengths are in centimeters. The rest pose of a BVH file has no rotations: the joints have the axes of the scene, and are
 /// at rest where the bones are at rest, as in the files that Blender writes. Every joint rotates about z, x and y; roots,
-/// and bones that move in their parent, also have position channels. The origins of all joints are those of the bones in every
+/// and bones that move in their parent, also have position channels. Several roots are below one more joint, since most programs
+/// read one root only; [`BVH`](super::BVH) leaves it out. The origins of all joints are those of the bones in every
 /// frame, whatever scale the bones have.
 ///
 /// Errors: the take has more than [`MOST_POSES`](crate::frames::MOST_POSES) poses.
@@ -39,16 +42,16 @@ pub fn write(model: &ModelData) -> Result<WholeFile, ExportError> {
     list_losses(model, &mut losses);
     let take = FramePoses::of(model.animation.takes.first().map(AsRef::as_ref), skeleton, &mut losses)
         .map_err(ExportError::new)?;
-    let tree = JointTree::of(skeleton, &take);
+    let tree = JointTree::of(skeleton, &take, &mut losses);
     let mut text = String::from("HIERARCHY\n");
     tree.write_hierarchy(skeleton, &take, &mut losses, &mut text);
-    let (frames, seconds) = (take.frames(), 1.0 / f64::from(take.rate()));
-    let _ = write!(text, "MOTION\nFrames: {frames}\nFrame Time: {}\n", spelled(seconds, b"0.00000000"));
+    let (frames, seconds) = (take.frames(), 1.0 / take.rate());
+    let _ = write!(text, "MOTION\nFrames: {frames}\nFrame Time: {}\n", spelled(seconds, b"0.0000000000"));
     let mut last = vec![[0.0; CHANNELS]; skeleton.len()];
     for frame in 0..frames {
         tree.write_row(&take, frame, &mut last, &mut text);
     }
-    Ok(WholeFile { bytes: text.into_bytes(), lost: losses.into_list() })
+    Ok(WholeFile { bytes: text.into_bytes(), lost: losses.into_list_of(model) })
 }
 
 /// Lists what a BVH file has no room for.
@@ -90,17 +93,20 @@ struct JointTree {
     channels: Vec<ChannelList>,
     is_end: Vec<bool>,
     has_children: Vec<bool>,
+    /// Whether all roots are below one more joint.
+    has_common_root: bool,
 }
 
 impl JointTree {
-    fn of(skeleton: &Skeleton, take: &FramePoses) -> Self {
+    fn of(skeleton: &Skeleton, take: &FramePoses, losses: &mut Losses) -> Self {
         let count = skeleton.len();
         let mut children = vec![Vec::new(); count];
+        let has_common_root = common_root::is_needed(skeleton, losses);
         let mut pending = Vec::new();
         for (index, bone) in skeleton.bones.iter().enumerate().rev() {
             match bone.parent {
                 Some(parent) => children[parent as usize].push(index),
-                None => pending.push((index, 0)),
+                None => pending.push((index, usize::from(has_common_root))),
             }
         }
         let is_end: Vec<bool> = (0..count).map(|bone| is_end_site(skeleton, take, bone, &children)).collect();
@@ -115,7 +121,7 @@ impl JointTree {
         };
         let channels = (0..count).map(channels).collect();
         let has_children = children.iter().map(|children| !children.is_empty()).collect();
-        Self { order, channels, is_end, has_children }
+        Self { order, channels, is_end, has_children, has_common_root }
     }
 
     fn write_hierarchy(
@@ -126,7 +132,12 @@ impl JointTree {
         text: &mut String,
     ) {
         let mut names = UniqueNames::default();
+        names.make(common_root::NAME.to_owned());
         let mut open = 0;
+        if self.has_common_root {
+            text.push_str(common_root::LINES);
+            open = 1;
+        }
         for &(bone, depth) in &self.order {
             close(text, &mut open, depth);
             let tabs = "\t".repeat(depth);
@@ -177,6 +188,9 @@ impl JointTree {
 
     fn write_row(&self, take: &FramePoses, frame: usize, last: &mut [[f64; CHANNELS]], text: &mut String) {
         let mut blank = "";
+        if self.has_common_root {
+            text.push_str(common_root::ROW);
+        }
         for &(bone, _) in &self.order {
             let channels = &self.channels[bone];
             let (rotation, translation) = take.local(frame, bone);

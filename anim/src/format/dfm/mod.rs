@@ -21,6 +21,7 @@ mod writer;
 pub use error::WriteError;
 pub use part::VERSION;
 
+use super::losses::avatar_lost;
 use super::{
     ByteBudget, ExportError, Format, ImportContext, ImportError, NoFiles, Place, ReadOptions, Warning,
     WholeFile, WriteSupport,
@@ -92,12 +93,7 @@ fn export(model: &ModelData) -> Result<WholeFile, ExportError> {
             text: format!("take \"{}\": this format has no room for its {}", take.name, names.join(", ")),
         }
     });
-    let avatar = (!model.avatar.is_empty()).then(|| Warning {
-        place: Place::Pointer("/avatar".to_owned()),
-        code: code::DFM_EXTRAS,
-        text: "this format has no room for humanoid bones and facial expressions".to_owned(),
-    });
-    Ok(WholeFile { bytes: write(model)?, lost: lost.chain(avatar).collect() })
+    Ok(WholeFile { bytes: write(model)?, lost: lost.chain(avatar_lost(model)).collect() })
 }
 
 /// Detects the size of a vertex, at byte 8, or the ending.

@@ -23,6 +23,7 @@ mod write;
 pub use write::write;
 
 use super::image::NeighborImages;
+use super::losses::avatar_lost;
 use super::text::parse_number;
 use super::{
     Conversion, ExportError, Format, Found, Handedness, ImportContext, ImportError, Place, SavePlan, UpAxis,
@@ -56,6 +57,7 @@ fn export(model: &ModelData, name: &str) -> Result<SavePlan, ExportError> {
         let place = Place::Pointer("/animation/takes".to_owned());
         plan.lost.push(Warning { place, code: "ANIMATION_NOT_WRITTEN", text: text.to_owned() });
     }
+    plan.lost.extend(avatar_lost(model));
     Ok(plan)
 }
 

@@ -5,8 +5,8 @@ use super::check as code;
 use crate::data::{Channel, Track, Transform};
 use crate::format::AxisMap;
 use crate::format::losses::Losses;
-use crate::format::straight::{is_straight, straight_times};
-use crate::sample::{Value, sample_channel};
+use crate::format::straight::{LineValue, is_straight, straight_times};
+use crate::sample::sample_channel;
 use glam::{Quat, Vec3};
 use std::fmt::Write;
 
@@ -82,7 +82,7 @@ impl KeyText {
     }
 
     /// Returns the keys of a channel.
-    pub(super) fn channel<T: Value>(
+    pub(super) fn channel<T: LineValue>(
         &self,
         kind: XKeyKind,
         channel: &Channel<T>,

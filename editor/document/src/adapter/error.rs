@@ -19,6 +19,9 @@ pub enum EditError {
     /// No mesh, or not the given one, has the shape key.
     #[error("there is no shape key {}", Quoted(.0))]
     NoShape(ShapeRef),
+    /// A take that is added has two lists of shape keys for one mesh.
+    #[error("the shape keys of mesh {0} are given twice")]
+    MeshTwice(u32),
     /// The take has no track for the bone.
     #[error("the take has no track for bone {0}")]
     NoTrack(u32),

@@ -1,13 +1,16 @@
 //! Adds a take with given keys.
 
+use super::given_shapes::GivenShapes;
 use super::kind::EditKind;
 use super::map_references::map_references;
-use super::{Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, Property, TakeRef};
+use super::{
+    Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, MeshRef, Property, ShapeRef, TakeRef,
+};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, finite};
 use crate::adapter::slot::{TakeVersions, extent};
 use crate::adapter::{EditError, ModelAdapter, take_name};
-use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
+use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Skeleton, Take, Track};
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use glam::{Quat, Vec3};
 use schemars::JsonSchema;
@@ -22,6 +25,9 @@ pub struct AddTake {
     pub name: String,
     /// The channels, at most one of each property of a bone.
     pub tracks: Vec<GivenChannel>,
+    /// The keys of shape keys, at most once for each mesh.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<GivenShapes>,
     /// Index in the list; last where absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<usize>,
@@ -46,7 +52,7 @@ pub struct GivenChannel {
 map_references!(GivenChannel { bone, property, interpolation, times, values });
 
 impl AddTake {
-    /// Returns the edit that adds `take`, without its morph tracks.
+    /// Returns the edit that adds `take`, without its morph tracks; [`Self::with_shapes`] adds some.
     pub fn of(name: String, take: &Take) -> Self {
         let mut tracks = Vec::new();
         for track in &take.tracks {
@@ -73,44 +79,55 @@ impl AddTake {
             let scaled = &track.scale;
             given(Property::Scale, &scaled.times, scaled.interpolation, vector(scaled));
         }
-        Self { name, tracks, at: None }
+        Self { name, tracks, shapes: Vec::new(), at: None }
     }
+
+    /// Returns the edit that adds the take with these keys of shape keys, too.
+    #[must_use]
+    pub fn with_shapes(self, tracks: &[MorphTrack]) -> Self {
+        Self { shapes: tracks.iter().map(GivenShapes::of).collect(), ..self }
+    }
+}
+
+/// Checks the times of keys.
+pub(super) fn check_times(times: &[f32]) -> Result<(), EditError> {
+    for &time in times {
+        finite("the time", time)?;
+        if time < 0.0 {
+            return Err(EditError::BeforeZero(time));
+        }
+        if time > CLIP_SECONDS {
+            return Err(EditError::TooLate(time));
+        }
+    }
+    if times.windows(2).any(|pair| pair[0] >= pair[1]) {
+        return Err(EditError::TooShort);
+    }
+    if times.len() > KEYS_PER_CHANNEL {
+        return Err(EditError::TooManyKeys { keys: times.len() });
+    }
+    Ok(())
+}
+
+/// Checks the numbers of keys, of which `wanted` are needed.
+pub(super) fn check_numbers(what: &'static str, numbers: &[f32], wanted: usize) -> Result<(), EditError> {
+    if numbers.len() != wanted {
+        return Err(EditError::Count { what, wanted, given: numbers.len() });
+    }
+    numbers.iter().try_for_each(|&number| finite("a value", number).map(|_| ()))
 }
 
 impl GivenChannel {
     /// Checks times and numbers.
     fn check(&self) -> Result<(), EditError> {
-        let ascending = self.times.windows(2).all(|pair| pair[0] < pair[1]);
-        for &time in &self.times {
-            finite("the time", time)?;
-            if time < 0.0 {
-                return Err(EditError::BeforeZero(time));
-            }
-            if time > CLIP_SECONDS {
-                return Err(EditError::TooLate(time));
-            }
-        }
-        if !ascending {
-            return Err(EditError::TooShort);
-        }
-        if self.times.len() > KEYS_PER_CHANNEL {
-            return Err(EditError::TooManyKeys { keys: self.times.len() });
-        }
+        check_times(&self.times)?;
         let each = if self.property == Property::Rotation { 4 } else { 3 };
         let per_key = if Interpolation::from(self.interpolation) == Interpolation::CubicSpline {
             3 * each
         } else {
             each
         };
-        let wanted = self.times.len() * per_key;
-        if self.values.len() != wanted {
-            return Err(EditError::Count {
-                what: "the values of a channel",
-                wanted,
-                given: self.values.len(),
-            });
-        }
-        self.values.iter().try_for_each(|&number| finite("a value", number).map(|_| ()))
+        check_numbers("the values of a channel", &self.values, self.times.len() * per_key)
     }
 
     fn vectors(&self) -> Channel<Vec3> {
@@ -135,7 +152,11 @@ impl GivenChannel {
     }
 }
 
-map_references!(AddTake { name, tracks }, |edit, map| { at: edit.at.map(|at| map.take_place(at, None)) });
+map_references!(AddTake { name, tracks }, |edit, map| {
+    // Those that do not fit are listed; without any, the take still has its tracks.
+    shapes: edit.shapes.mapped(map).unwrap_or_default(),
+    at: edit.at.map(|at| map.take_place(at, None)),
+});
 
 impl EditKind for AddTake {
     const EXAMPLE: Example = Example {
@@ -169,6 +190,13 @@ impl EditKind for AddTake {
                 Property::Scale => track.scale = given.vectors(),
             }
         }
+        for given in &self.shapes {
+            let track = given.track(work.adapter().shapes())?;
+            if take.morphs.iter().any(|other| other.instance == track.instance) {
+                return Err(EditError::MeshTwice(track.instance));
+            }
+            take.morphs.push(track);
+        }
         if take.keys() == 0 {
             return Err(EditError::LastKey);
         }
@@ -191,7 +219,14 @@ impl EditKind for AddTake {
             GivenChannel { bone, property, interpolation: KeyInterpolation::Linear, times, values }
         });
         let tracks = tracks.collect();
-        Self { name: from.name(), tracks, at: from.optional(|from| from.below(4)) }
+        let shapes = from.optional(|from| {
+            let times: Vec<f32> = (0..1 + from.below(3)).map(|key| key as f32 * 0.5).collect();
+            let weights = from.numbers(times.len());
+            let (mesh, shapes) = (Some(MeshRef::Index(from.choice([0, 2]))), vec![ShapeRef::Index(0)]);
+            GivenShapes { mesh, shapes, interpolation: KeyInterpolation::Linear, times, weights }
+        });
+        let shapes = shapes.into_iter().collect();
+        Self { name: from.name(), tracks, shapes, at: from.optional(|from| from.below(4)) }
     }
 
     fn take_title(&self, _adapter: &ModelAdapter) -> Option<String> {

@@ -60,7 +60,13 @@ impl EditKind for AddTakes {
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { takes: (0..from.below(3)).map(|_| AddTake::arbitrary(from)).collect() }
+        let count = from.below(3);
+        // Names differ.
+        let take = |number: usize| {
+            let take = AddTake::arbitrary(from);
+            AddTake { name: format!("{} {number}", take.name), ..take }
+        };
+        Self { takes: (0..count).map(take).collect() }
     }
 
     fn take_title(&self, _adapter: &ModelAdapter) -> Option<String> {

@@ -1,6 +1,7 @@
 //! Materials. The parser translates every shading model of FBX to physically based values.
 
 use crate::code::FBX_NOT_SHOWN;
+use crate::write::CREATOR;
 use dragonfly_anim::data::{AlphaMode, Filter, Material, Metallic, TextureRef, TextureTransform, Wrap};
 use dragonfly_anim::format::gltf::phong;
 use dragonfly_anim::format::{ImportContext, ImportError, Place};
@@ -24,6 +25,7 @@ pub(super) fn materials(
         let reader = FbxMaterials {
             images,
             second,
+            is_own: &*scene.metadata.creator == CREATOR,
             context,
             place: format!("/materials/{}", material.element.typed_id),
         };
@@ -36,6 +38,8 @@ pub(super) fn materials(
 struct FbxMaterials<'a> {
     images: &'a [u32],
     second: &'a str,
+    /// Whether the file was written by this crate, which stores the metallic value as the strength of reflections.
+    is_own: bool,
     context: &'a ImportContext<'a>,
     place: String,
 }
@@ -72,7 +76,8 @@ impl FbxMaterials<'_> {
         // A material without any opacity is a known mistake of exporters.
         let opacity = fraction(&pbr.opacity).or_else(|| plain_opacity(material));
         let opacity = opacity.filter(|&opacity| opacity > 0.0).unwrap_or(1.0);
-        let metallic = fraction(&pbr.metalness).unwrap_or(0.0);
+        let own_metallic = || fraction(&fbx.reflection_factor).filter(|_| self.is_own);
+        let metallic = fraction(&pbr.metalness).or_else(own_metallic).unwrap_or(0.0);
         let roughness = fraction(&pbr.roughness).unwrap_or(DULL);
         let emissive_texture = self.texture(&pbr.emission_color);
         let emission = fraction(&pbr.emission_factor).unwrap_or(1.0);

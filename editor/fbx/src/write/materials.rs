@@ -7,6 +7,9 @@ use super::scene::{ObjectId, SceneWriter};
 use dragonfly_anim::data::{AlphaMode, Material};
 use glam::Vec3;
 
+/// Specular color of a material that has none, as most surfaces that are no metal.
+const DIELECTRIC: f32 = 0.25;
+
 /// Adds all materials. Returns their objects.
 pub(super) fn add_materials(
     scene: &mut SceneWriter,
@@ -48,7 +51,7 @@ fn list_losses(material: &Material, place: &str, losses: &mut FbxLosses) {
     };
     lose(
         !material.use_phong && material.metallic.metallic > 0.0,
-        "the metallic value is stored as the strength of reflections only",
+        "the metallic value is stored as the strength of reflections, which few programs read as metal",
     );
     lose(material.metallic_roughness_texture.is_some(), "the texture of metal and roughness is not stored");
     lose(material.occlusion_texture.is_some(), "the texture of occlusion is not stored");
@@ -81,8 +84,11 @@ fn add_material(scene: &mut SceneWriter, material: &Material) -> ObjectId {
     let dull = 10.0 * (1.0 - f64::from(material.metallic.roughness).clamp(0.0, 1.0));
     let (specular, shininess, reflection) = match material.use_phong {
         true => (material.phong.specular, f64::from(material.phong.specular_power), 0.0),
-        false => (Vec3::splat(0.25), dull * dull, f64::from(material.metallic.metallic)),
+        false => (Vec3::splat(DIELECTRIC), dull * dull, f64::from(material.metallic.metallic)),
     };
+    // The color is the product. Of programs with physical materials, Blender reads twice the factor, and no color.
+    let strength = specular.max_element();
+    let tint = if strength > 0.0 { specular / strength } else { Vec3::ONE };
     let ambient = if material.use_phong { material.phong.ambient } else { Vec3::ZERO };
     let alpha = match material.alpha_mode {
         AlphaMode::Blend => f64::from(material.base_color.w).clamp(0.0, 1.0),
@@ -100,8 +106,8 @@ fn add_material(scene: &mut SceneWriter, material: &Material) -> ObjectId {
         color("TransparentColor", Vec3::ONE),
         number("TransparencyFactor", 1.0 - alpha),
         number("Opacity", alpha),
-        color("SpecularColor", specular),
-        number("SpecularFactor", 1.0),
+        color("SpecularColor", tint),
+        number("SpecularFactor", f64::from(strength)),
         number("Shininess", shininess),
         number("ShininessExponent", shininess),
         color("ReflectionColor", Vec3::ONE),

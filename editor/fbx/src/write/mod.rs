@@ -32,6 +32,7 @@ mod space;
 mod takes;
 
 pub use preset::{ExportPreset, PRESETS, preset};
+pub(crate) use scene::CREATOR;
 
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{ExportError, SavePlan, WholeFile};
@@ -52,6 +53,9 @@ pub fn export_with(
 ) -> Result<SavePlan, ExportError> {
     let settings = preset.map_or(&USUAL, ExportPreset::settings);
     let mut losses = FbxLosses::default();
+    if !model.avatar.is_empty() {
+        losses.add("/avatar", "humanoid bones and facial expressions are written to .vrma only");
+    }
     let bytes = match prepare::prepared(model, settings, &mut losses)? {
         Some(prepared) => write(&prepared, settings, &mut losses)?,
         None => write(model, settings, &mut losses)?,

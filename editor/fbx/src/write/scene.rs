@@ -16,7 +16,7 @@ pub(super) const FILE_ID: [u8; 16] =
 const CREATED: &str = "1970-01-01 10:00:00:000";
 
 /// Name of the program in the file.
-const CREATOR: &str = "Dragonfly";
+pub(crate) const CREATOR: &str = "Dragonfly";
 
 /// Number of the first object; smaller numbers are reserved by some programs.
 const FIRST_OBJECT: i64 = 1_000_000;

@@ -4,13 +4,13 @@ mod plan;
 mod report;
 
 use super::farm::{FarmEngine, FarmJob};
-use super::import_options::ImportArguments;
+use super::import_options::{ImportArguments, positive};
 use super::output::print;
 use super::run_command::RunCommand;
 use super::{Failure, tell};
 use dragonfly_anim::format::Conventions;
 use dragonfly_document::{
-    Cancel, ConvertedFile, checked_preset, convert, formats, make_folder, written_extensions,
+    Cancel, ConvertedFile, checked_preset, convert, make_folder, written_extensions, written_format,
 };
 use dragonfly_runtime::{Job, Thread};
 use plan::{PlannedFile, Shard, plan};
@@ -29,6 +29,8 @@ reported and the others are converted; the exit code is 2 then. Formats that are
 Examples:\n  dragonfly convert Walk.bvh -o Walk.glb\n  \
 dragonfly convert captures -o models --to glb --scale 0.01\n  \
 dragonfly convert Hero.glb -o Hero.fbx --preset unity\n  \
+dragonfly convert Hero.fbx -o Hero.bvh --bake 60\n  \
+dragonfly convert Hero.glb -o curves.csv\n  \
 dragonfly convert captures -o models --to glb --shard 2/8 --resume\n  \
 dragonfly convert captures -o models --to glb --job openjd --parts 32 > job.json\n  \
 dragonfly convert Hero.x -o Hero.glb --dry-run", written_extensions()))]
@@ -45,6 +47,9 @@ pub(super) struct ConvertArguments {
     /// Program for which the files are written: unity, unreal, maya or blender, for .fbx
     #[arg(long, value_name = "PRESET")]
     preset: Option<String>,
+    /// Write a key at every frame of this many frames per second, with lines between them, instead of the keys and curves
+    #[arg(long, value_name = "FPS", value_parser = positive)]
+    bake: Option<f32>,
     /// Convert only part I of N of the files, to share the work between machines
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -73,7 +78,7 @@ pub(super) struct ConvertArguments {
 impl RunCommand for ConvertArguments {
     fn run(self) -> Result<(), Failure> {
         if let Some(extension) = &self.to
-            && formats().by_extension(extension).is_none_or(|format| format.export.is_none())
+            && written_format(extension).is_none()
         {
             let known = written_extensions();
             return Err(Failure::input("--to", format_args!("{extension:?} cannot be written; use {known}")));
@@ -86,7 +91,8 @@ impl RunCommand for ConvertArguments {
         let files = plan(&self.inputs, &self.output, self.to.as_deref(), self.shard)?;
         let resume = self.resume;
         let preset = self.preset;
-        let orders = Orders { files, conventions, preset, is_written: !self.dry_run, resume };
+        let (bake, is_written) = (self.bake, !self.dry_run);
+        let orders = Orders { files, conventions, preset, bake, is_written, resume };
         let outcomes = run(orders, self.jobs)?;
         ConvertReport::of(outcomes).print(self.json)
     }
@@ -99,7 +105,7 @@ impl ConvertArguments {
         let of_file = || self.output.extension().and_then(|extension| extension.to_str());
         let extension = self.to.as_deref().or_else(of_file).unwrap_or_default();
         // A format that is not written is reported with the file.
-        let Some(format) = formats().by_extension(extension).copied() else { return Ok(()) };
+        let Some(format) = written_format(extension) else { return Ok(()) };
         checked_preset(&format, preset).map(drop).map_err(|reason| Failure::input("--preset", reason))
     }
 
@@ -111,6 +117,7 @@ impl ConvertArguments {
         let options = [
             ("--to", self.to.clone()),
             ("--preset", self.preset.clone()),
+            ("--bake", self.bake.map(|rate| rate.to_string())),
             ("--jobs", self.jobs.map(|jobs| jobs.to_string())),
         ];
         let chosen = options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?]));
@@ -129,6 +136,7 @@ struct Orders {
     files: Vec<PlannedFile>,
     conventions: Conventions,
     preset: Option<String>,
+    bake: Option<f32>,
     is_written: bool,
     resume: bool,
 }
@@ -146,7 +154,8 @@ impl Orders {
         {
             return outcome(Err(reason));
         }
-        let converted = convert(&file.order(self.conventions, self.preset.clone(), self.is_written), cancel);
+        let preset = self.preset.clone();
+        let converted = convert(&file.order(self.conventions, preset, self.bake, self.is_written), cancel);
         outcome(converted.map(Some).map_err(|error| error.to_string()))
     }
 }

@@ -31,10 +31,11 @@ impl PlannedFile {
         &self,
         conventions: Conventions,
         preset: Option<String>,
+        bake: Option<f32>,
         is_written: bool,
     ) -> ConversionOrder {
         let (input, output) = (self.input.clone(), self.output.clone());
-        ConversionOrder { input, output, conventions, preset, is_written }
+        ConversionOrder { input, output, conventions, preset, bake, is_written }
     }
 }
 

@@ -86,11 +86,10 @@ impl AddClips {
         let (mut takes, mut report, mut failed) = (Vec::new(), Vec::new(), 0);
         for path in &self.clips {
             let file = path.display().to_string();
-            let skeleton = &editable.model.animation.skeleton;
             let done =
                 load(&source_as(path, &self.import)).map_err(|error| failure_text(&error)).and_then(|clip| {
-                    let animation = &clip.model.animation;
-                    clip_takes(&clip.title, animation, &|_, _| true, skeleton, &mut names, &settings)
+                    let target = &editable.model;
+                    clip_takes(&clip.title, &clip.model, &|_, _| true, target, &mut names, &settings)
                         .map_err(|reason| format!("{file}: {reason}"))
                 });
             match done {

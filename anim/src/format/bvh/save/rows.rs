@@ -104,7 +104,6 @@ impl<'a> RowWriter<'a> {
         let joints = &self.text.hierarchy.joints;
         let end = self.row.last().map_or(self.row_start, |token| token.at + token.text.len());
         self.replace(end..end, "");
-        let blank: &[u8] = b" ";
         let line_end: &[u8] =
             if self.bytes[..end].ends_with(b"\r") || self.bytes.contains(&b'\r') { b"\r\n" } else { b"\n" };
         let mut last: Vec<[f64; CHANNELS]> =
@@ -112,6 +111,9 @@ impl<'a> RowWriter<'a> {
         self.changes.appended = frames.len();
         for frame in frames {
             let time = time_of(frame, self.text.seconds());
+            for column in 0..self.text.hierarchy.columns_before() {
+                self.append_number(column, 0.0, line_end);
+            }
             for (index, joint) in joints.iter().enumerate() {
                 let Some(bone) = self.skeleton.bones.get(index) else { continue };
                 let pose =
@@ -119,22 +121,26 @@ impl<'a> RowWriter<'a> {
                 last[index] =
                     self.numbers(index, Some(pose.rotation), Some(pose.translation), [&last[index]; 2]);
                 for (slot, number) in last[index].iter().enumerate().take(joint.channels.len()) {
-                    let column = joint.first + slot;
-                    let (before, old) = match self.row.get(column) {
-                        Some(token) => {
-                            let from = match column.checked_sub(1) {
-                                Some(before) => self.row[before].at + self.row[before].text.len(),
-                                None => self.row_start,
-                            };
-                            (&self.bytes[from..token.at], token.text)
-                        }
-                        None => (if column == 0 { line_end } else { blank }, &b"0.000000"[..]),
-                    };
-                    self.out.extend_from_slice(before);
-                    self.out.extend_from_slice(spelled(*number, old).as_bytes());
+                    self.append_number(joint.first + slot, *number, line_end);
                 }
             }
         }
+    }
+
+    /// Appends the number of a column, as the row that was read last has it.
+    fn append_number(&mut self, column: usize, number: f64, line_end: &[u8]) {
+        let (before, old) = match self.row.get(column) {
+            Some(token) => {
+                let from = match column.checked_sub(1) {
+                    Some(before) => self.row[before].at + self.row[before].text.len(),
+                    None => self.row_start,
+                };
+                (&self.bytes[from..token.at], token.text)
+            }
+            None => (if column == 0 { line_end } else { &b" "[..] }, &b"0.000000"[..]),
+        };
+        self.out.extend_from_slice(before);
+        self.out.extend_from_slice(spelled(number, old).as_bytes());
     }
 
     /// Removes rows at the end.

@@ -66,6 +66,8 @@ pub(super) struct BinaryWriter {
     accessors: Vec<Value>,
     /// Accessor of each column of key times, by its address.
     times: HashMap<*const f32, (Arc<[f32]>, usize)>,
+    /// Number and length in bytes of the view of zeros.
+    zeros: Option<(usize, usize)>,
 }
 
 impl BinaryWriter {
@@ -138,14 +140,20 @@ impl BinaryWriter {
         self.accessors.len() - 1
     }
 
-    /// Adds `count` elements that are zero, without bytes, and returns the number of the accessor.
-    pub(super) fn zeros(&mut self, count: usize, shape: &AccessorShape) -> usize {
-        let mut accessor = json!({"componentType": 5126, "count": count, "type": shape.kind});
-        if shape.has_range {
-            accessor["min"] = vec![0; shape.width].into();
-            accessor["max"] = vec![0; shape.width].into();
+    /// Adds `count` vectors of zeros for vertices, and returns the number of the accessor. All such accessors share one view, since
+    /// many programs refuse an accessor without one.
+    pub(super) fn zeros(&mut self, count: usize) -> usize {
+        let shape = AccessorShape::VEC3;
+        let bytes = 4 * shape.width * count;
+        let (view, longest) = self.zeros.unwrap_or((self.views.len(), 0));
+        if self.zeros.is_none() {
+            self.views.push(Value::Null);
         }
-        self.accessors.push(accessor);
+        self.zeros = Some((view, longest.max(bytes)));
+        let range = [0.0; 3];
+        self.accessors.push(json!({
+            "bufferView": view, "componentType": 5126, "count": count, "type": shape.kind, "min": range, "max": range,
+        }));
         self.accessors.len() - 1
     }
 
@@ -161,7 +169,11 @@ impl BinaryWriter {
     }
 
     /// Returns the views, the accessors, and the bytes of the buffer.
-    pub(super) fn finish(self) -> (Vec<Value>, Vec<Value>, Vec<u8>) {
+    pub(super) fn finish(mut self) -> (Vec<Value>, Vec<Value>, Vec<u8>) {
+        if let Some((view, bytes)) = self.zeros {
+            self.view(&vec![0; bytes], ViewTarget::Vertices, Some(4 * AccessorShape::VEC3.width));
+            self.views.swap_remove(view);
+        }
         (self.views, self.accessors, self.bytes)
     }
 }

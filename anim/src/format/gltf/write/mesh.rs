@@ -96,7 +96,7 @@ impl GltfWriter<'_> {
         }
     }
 
-    /// Writes the columns of a target. One without any gets positions of zero, without bytes.
+    /// Writes the columns of a target. One without any gets positions of zero.
     fn morph_target(&mut self, target: &MorphTarget, vertices: usize) -> Value {
         let mut written = Map::new();
         let columns = [
@@ -110,7 +110,7 @@ impl GltfWriter<'_> {
                 let accessor = self.binary.accessor(Components::Floats(&flat3(column)), &shape);
                 written.insert(name.to_owned(), json!(accessor));
             } else if !column.is_empty() || name == "POSITION" {
-                written.insert(name.to_owned(), json!(self.binary.zeros(vertices, &shape)));
+                written.insert(name.to_owned(), json!(self.binary.zeros(vertices)));
             }
         }
         Value::Object(written)

@@ -30,6 +30,7 @@ mod node;
 
 use crate::data::ModelData;
 use crate::format::gltf::save::SaveError;
+use crate::format::losses::avatar_lost;
 use crate::format::{ExportError, Place, Warning, WholeFile};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -50,15 +51,6 @@ pub fn glb(model: &ModelData) -> Result<WholeFile, ExportError> {
     lost.extend(avatar_lost(model));
     let bytes = container(&root, binary)?;
     Ok(WholeFile { bytes, lost })
-}
-
-/// Returns the loss of the humanoid bones and expressions of VRM, if the model has any.
-fn avatar_lost(model: &ModelData) -> Option<Warning> {
-    (!model.avatar.is_empty()).then(|| Warning {
-        place: Place::Pointer("/avatar".to_owned()),
-        code: NOT_IN_GLTF,
-        text: "humanoid bones and facial expressions are written to .vrma only".to_owned(),
-    })
 }
 
 /// Returns a document and its buffer in a binary container.

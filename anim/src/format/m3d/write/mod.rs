@@ -63,7 +63,7 @@ pub fn write(model: &ModelData, dialect: M3dDialect) -> Result<WholeFile, Export
         let reason = "a file without bones has no takes";
         losses.add("/animation/takes".to_owned(), code::TAKE_NOT_STORED, reason);
     }
-    Ok(WholeFile { bytes: text.into_bytes(), lost: losses.into_list() })
+    Ok(WholeFile { bytes: text.into_bytes(), lost: losses.into_list_of(model) })
 }
 
 fn write_bones(skeleton: &Skeleton, to_file: &AxisMap, text: &mut String) {

@@ -66,7 +66,7 @@ pub fn write(model: &ModelData) -> Result<WholeFile, ExportError> {
         let _ = write!(text, "AnimTicksPerSecond {{\n {TICKS};\n}}\n\n");
     }
     write_takes(model, &frames, to_file, &mut losses, &mut text);
-    Ok(WholeFile { bytes: text.into_bytes(), lost: losses.into_list() })
+    Ok(WholeFile { bytes: text.into_bytes(), lost: losses.into_list_of(model) })
 }
 
 /// Returns the name of the frame of each bone.
