@@ -1,6 +1,6 @@
 //! Edits of a script's text: what they change, and that nothing else changes.
 
-use super::{DUEL, read, told};
+use super::{DUEL, listed, read};
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::splice::{
     AttachedComments, ElementPlace, NewElement, TextSplices, delete, duplicate, insert, is_used, move_to,
@@ -146,7 +146,7 @@ fn a_moved_element_keeps_its_spelling_and_is_indented_as_its_new_siblings() {
         let place = ElementPlace::After(with_id(script, "ben-acts"));
         move_to(script.tree(), with_id(script, "grab"), place, AttachedComments::Stay)
     });
-    let script = StageScript::read(new.as_str()).unwrap_or_else(|errors| panic!("{}", told(&errors)));
+    let script = StageScript::read(new.as_str()).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
     let grab = &script.tree().elements()[with_id(&script, "grab")];
     let parent = &script.tree().elements()[grab.parent.unwrap()];
     assert_eq!(parent.value("id"), Some("scene-1"));
@@ -252,7 +252,7 @@ fn any_sequence_of_edits_is_undone_to_the_same_text() {
             let read = StageScript::read(new.as_str());
             let comments = |text: &str| text.matches("<!--").count();
             assert!(!keeps_comments || comments(&new) >= comments(&text), "round {round}: {splices:?}");
-            assert!(!is_valid || read.is_ok(), "round {round}: {}\n{splices:?}", told(&read.unwrap_err()));
+            assert!(!is_valid || read.is_ok(), "round {round}: {}\n{splices:?}", listed(&read.unwrap_err()));
             let inverse = splices.inverse(&text);
             edits += 1;
             if read.is_err() {
