@@ -62,6 +62,8 @@ impl Document {
                 if !done.takes.is_empty() {
                     let edit = Edit::AddTakes(AddTakes { takes: done.takes });
                     self.change(Change::Edit(edit, None), None, now);
+                    // First the view, then what is said about it: the last message is the one that is shown.
+                    self.publish();
                 }
                 match &*done.failed {
                     [] => self.reply(DocumentReply::Notice(summary)),

@@ -79,6 +79,8 @@ impl Document {
             }
             RetargetNews::Take(Ok((add, text))) => {
                 self.change(Change::Edit(Edit::AddTake(*add), None), None, now);
+                // First the view, then what is said about it: the last message is the one that is shown.
+                self.publish();
                 self.reply(DocumentReply::Notice(text));
             }
             RetargetNews::Map(Ok(map)) => self.reply(DocumentReply::MapRead(map)),
