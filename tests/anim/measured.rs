@@ -110,7 +110,9 @@ fn contacts() -> String {
 fn the_tables_of_the_page_are_what_the_tests_measure_now() {
     let old = std::fs::read_to_string(page()).expect("the page");
     let mut new = old.clone();
-    for (name, table) in [("differences", differences()), ("reduction", reduction()), ("contacts", contacts())] {
+    for (name, table) in
+        [("differences", differences()), ("reduction", reduction()), ("contacts", contacts())]
+    {
         let marker = format!("<!-- measured: {name} -->\n");
         let (before, after) = new.split_once(&marker).unwrap_or_else(|| panic!("no {marker}"));
         let (_, after) = after.split_once("<!-- end -->").expect("an end");

@@ -17,8 +17,8 @@ fn rotation(value: &Value) -> Quat {
 
 /// Returns the number of compared rotations, and the largest angle by which one differs from Blender's, degrees.
 pub(crate) fn compared_with_blender() -> (usize, f64) {
-    let expected: Value = serde_json::from_str(include_str!("../data/retarget/expected.json"))
-        .expect("written by expected.py");
+    let expected: Value =
+        serde_json::from_str(include_str!("../data/retarget/expected.json")).expect("written by expected.py");
     let list = |value: &Value| value.as_array().expect("a list").clone();
     let skeleton = |rests: &Value| {
         let bones = list(&expected["bones"]).into_iter().zip(list(rests)).map(|(about, rest)| {

@@ -79,7 +79,8 @@ fn a_skeleton_with_far_cameras_is_framed_without_them() {
     let skeleton = Arc::make_mut(&mut animation.skeleton);
     let own = skeleton.len();
     let mut camera = skeleton.bones[0].clone();
-    (camera.name, camera.parent, camera.rest.translation) = ("Camera01".to_owned(), None, Vec3::splat(5000.0));
+    (camera.name, camera.parent, camera.rest.translation) =
+        ("Camera01".to_owned(), None, Vec3::splat(5000.0));
     skeleton.bones.push(camera);
     let mut state = State::new(Settings::default(), Instant::now());
     let size = Vec2::new(780.0, 430.0);

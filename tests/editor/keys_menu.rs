@@ -25,8 +25,7 @@ fn every_command_for_keys_is_in_the_menu_or_in_a_menu_of_it() {
     };
     let all = commands::of(Category::Keys).iter().map(|command| command.id);
     // These open at the pointer what is in menus here.
-    let mut left: Vec<Id> =
-        all.filter(|id| ![Id::InterpolationMenu, Id::TangentMenu].contains(id)).collect();
+    let mut left: Vec<Id> = all.filter(|id| ![Id::InterpolationMenu, Id::TangentMenu].contains(id)).collect();
     left.retain(|&id| !listed(&animator, id));
     for menu in ["Move, scale", "Interpolation", "Tangents", "Events, markers", "Play range"] {
         let at = animator.harness.get_by_label_contains(menu).rect().center();

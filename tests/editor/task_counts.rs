@@ -134,7 +134,10 @@ fn no_task_takes_more_actions_than_in_blender_and_the_page_shows_all() {
         table += &format!("| {task} | {ours} | {blender} |\n");
     }
     let page = include_str!("README.md");
-    assert!(page.contains(&format!("<!-- tasks -->\n{table}<!-- end -->\n")), "put this into the page:\n{table}");
+    assert!(
+        page.contains(&format!("<!-- tasks -->\n{table}<!-- end -->\n")),
+        "put this into the page:\n{table}"
+    );
 }
 
 #[test]

@@ -81,7 +81,7 @@ fn a_mark_without_a_fix_does_not_promise_one() {
     // A bone that is half a meter away in one frame: no edit knows where it belongs.
     edit(
         &mut animator,
-        r#"{"edit":"set_pose","take":0,"time":1.0,"poses":[{"bone":5,"translation":[0.5,0.5,0.5]}]}"#,
+        r#"{"edit":"set","take":0,"time":1.0,"poses":[{"bone":5,"translation":[0.5,0.5,0.5]}]}"#,
     );
     animator.request(Request::Command(Id::ToggleProblems));
     check(&mut animator);
