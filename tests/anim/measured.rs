@@ -1,4 +1,4 @@
-//! The page `README.md` beside these tests shows what they measure: each algorithm beside an independent result.
+//! The page `README.md` in this folder shows what the tests measure: each algorithm, compared with an independent result.
 
 use crate::{contact_labels, inbetween, reduce, retarget_blender, tangents, turns};
 use dragonfly_anim::data::Interpolation;
@@ -16,7 +16,7 @@ fn page() -> PathBuf {
 fn two_digits(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
-        value if value.abs() < 1e-3 => format!("{value:.1e}"),
+        value if value.abs() < 0.01 => format!("{value:.1e}"),
         value => format!("{value:.2}"),
     }
 }
@@ -61,7 +61,7 @@ fn differences() -> String {
     table(&["algorithm", "compared with", "values", "largest difference", "the test allows"], &rows)
 }
 
-/// Returns the table of the reduction of keys beside its bound.
+/// Returns the table of the reduction of keys, with its bound.
 fn reduction() -> String {
     let cases = [
         ("Fox, Survey", "gltf/Fox.glb", "Survey", 10.0, 1.0),
@@ -88,7 +88,7 @@ fn reduction() -> String {
     text
 }
 
-/// Returns the table of contacts beside labels.
+/// Returns the table of contacts, with the labels.
 fn contacts() -> String {
     let rows = contact_labels::labelled_feet().into_iter().map(|(name, found, allowed)| {
         let labelled = found.both + found.missed;
@@ -101,8 +101,14 @@ fn contacts() -> String {
             format!("{} of {}", found.extra, allowed[1]),
         ]
     });
-    let columns =
-        ["foot", "contacts labeled", "contacts found", "frames labeled", "frames missed", "frames extra"];
+    let columns = [
+        "foot",
+        "contacts labeled",
+        "contacts found",
+        "frames labeled",
+        "frames missed, of allowed",
+        "frames extra, of allowed",
+    ];
     table(&columns, &rows.collect::<Vec<_>>())
 }
 

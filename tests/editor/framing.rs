@@ -82,6 +82,7 @@ fn a_skeleton_with_far_cameras_is_framed_without_them() {
     (camera.name, camera.parent, camera.rest.translation) =
         ("Camera01".to_owned(), None, Vec3::splat(5000.0));
     skeleton.bones.push(camera);
+    loaded.bounds.max = Vec3::splat(5000.0);
     let mut state = State::new(Settings::default(), Instant::now());
     let size = Vec2::new(780.0, 430.0);
     state.execute(Request::Viewport(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size.x, size.y))));

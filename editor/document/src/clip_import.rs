@@ -62,7 +62,7 @@ impl Document {
                 if !done.takes.is_empty() {
                     let edit = Edit::AddTakes(AddTakes { takes: done.takes });
                     self.change(Change::Edit(edit, None), None, now);
-                    // First the view, then what is said about it: the last message is the one that is shown.
+                    // The view goes first: the status line shows the last message.
                     self.publish();
                 }
                 match &*done.failed {

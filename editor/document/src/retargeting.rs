@@ -79,7 +79,7 @@ impl Document {
             }
             RetargetNews::Take(Ok((add, text))) => {
                 self.change(Change::Edit(Edit::AddTake(*add), None), None, now);
-                // First the view, then what is said about it: the last message is the one that is shown.
+                // The view goes first: the status line shows the last message.
                 self.publish();
                 self.reply(DocumentReply::Notice(text));
             }
