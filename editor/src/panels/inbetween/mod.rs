@@ -175,7 +175,8 @@ impl InBetween {
     fn choose_take(&mut self, ui: &mut Ui, context: &PanelContext<'_>) {
         let Some(other) = self.other(context) else { return };
         let name = |take: usize| widgets::shortened(&context.digest.takes[take].name);
-        let button = widgets::choice_button(ui, &format!("To take: {}", name(other)));
+        let text = RichText::new(format!("To take: {}", name(other))).small().color(Theme::of(ui).weak);
+        let button = ui.add(Button::new(text).frame(false).truncate());
         let button = button.on_hover_text("Other take\nThe take toward which “To take” moves keys");
         Popup::menu(&button).show(|ui| {
             ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
@@ -192,7 +193,9 @@ impl InBetween {
 
     /// Draws the button that chooses the axis of full turns.
     fn choose_axis(&mut self, ui: &mut Ui) {
-        let button = widgets::choice_button(ui, &format!("Turn axis: {}", self.axis.name()));
+        let text = format!("Turn axis: {}", self.axis.name());
+        let button = ui
+            .add(Button::new(RichText::new(text).small().color(Theme::of(ui).weak)).frame(false).truncate());
         let button = button.on_hover_text(
             "Turn axis\nThe axis of the bone about which “Full turns” turns between keys of the same rotation",
         );
