@@ -9,12 +9,12 @@ use serde_json::Value;
 
 /// Frames of one foot that are labelled and found, labelled but not found, found but not labelled.
 #[derive(Debug, Default)]
-struct Agreement {
-    both: usize,
-    missed: usize,
-    extra: usize,
+pub(crate) struct Agreement {
+    pub(crate) both: usize,
+    pub(crate) missed: usize,
+    pub(crate) extra: usize,
     /// Numbers of contacts labelled and found.
-    spans: [usize; 2],
+    pub(crate) spans: [usize; 2],
 }
 
 fn agreement(foot: &Value, rate: f32) -> Agreement {
@@ -63,15 +63,23 @@ const CAPTURES: [(&str, [[usize; 2]; 2]); 3] = [
     (include_str!("../data/contacts/pybvh_example.json"), [[0, 2], [0, 2]]),
 ];
 
-#[test]
-fn contacts_found_in_captures_agree_with_labels_set_manually() {
+/// Returns the feet of all captures: file and bone, the agreement, and the largest numbers of frames missed and extra.
+pub(crate) fn labelled_feet() -> Vec<(String, Agreement, [usize; 2])> {
+    let mut feet = Vec::new();
     for (text, allowed) in CAPTURES {
         let capture: Value = serde_json::from_str(text).expect("a capture");
         let rate = capture["rate"].as_f64().expect("a rate") as f32;
-        for (foot, [missed, extra]) in capture["feet"].as_array().expect("feet").iter().zip(allowed) {
-            let found = agreement(foot, rate);
-            let name = format!("{} {}", capture["source"], foot["bone"]);
-            assert!(found.both > 30 && found.missed <= missed && found.extra <= extra, "{name}: {found:?}");
+        for (foot, allowed) in capture["feet"].as_array().expect("feet").iter().zip(allowed) {
+            let [file, bone] = [&capture["source"], &foot["bone"]].map(|name| name.as_str().expect("a name"));
+            feet.push((format!("{file} {bone}"), agreement(foot, rate), allowed));
         }
+    }
+    feet
+}
+
+#[test]
+fn contacts_found_in_captures_agree_with_labels_set_manually() {
+    for (name, found, [missed, extra]) in labelled_feet() {
+        assert!(found.both > 30 && found.missed <= missed && found.extra <= extra, "{name}: {found:?}");
     }
 }

@@ -356,10 +356,8 @@ fn fewest(values: &[Vec3], tolerance: f32) -> usize {
     best[values.len() - 1]
 }
 
-#[test]
-fn a_single_channel_gets_the_fewest_possible_keys() {
-    let seed = seed(34);
-    println!("DRAGONFLY_SEED={seed}");
+/// Returns the fewest possible keys of 60 channels in all, and the number of keys that reduction leaves.
+pub(crate) fn fewest_and_ours(seed: u64) -> (usize, usize) {
     let mut random = Random::new(seed);
     let skeleton = Skeleton { bones: vec![bone("only", None, Vec3::ZERO)] };
     let (mut optimal, mut ours) = (0, 0);
@@ -377,6 +375,14 @@ fn a_single_channel_gets_the_fewest_possible_keys() {
         let reduced = reduce(&take, &skeleton, &settings).unwrap();
         (optimal, ours) = (optimal + fewest(&values, 0.003), ours + reduced.keys_after);
     }
+    (optimal, ours)
+}
+
+#[test]
+fn a_single_channel_gets_the_fewest_possible_keys() {
+    let seed = seed(34);
+    println!("DRAGONFLY_SEED={seed}");
+    let (optimal, ours) = fewest_and_ours(seed);
     println!("the fewest keys: {optimal}; ours: {ours}");
     assert!(ours <= optimal + 1 + optimal / 50, "{ours} keys instead of {optimal}");
 }
@@ -476,6 +482,17 @@ fn report(name: &str, model: &ModelData, millimeters_per_unit: f32, tolerances: 
             }
         }
     }
+}
+
+/// Returns the keys before and after a reduction of a take of a model, and the largest error of a shell point, millimeters.
+pub(crate) fn reduced_take(file: &str, take: &str, unit: f32, tolerance: f32) -> ([usize; 2], f64) {
+    let model = model(&data().join(file));
+    let (skeleton, takes) = (&model.animation.skeleton, &model.animation.takes);
+    let take = takes.iter().find(|other| other.name == take).expect("a take");
+    let settings = ReduceSettings { millimeters_per_unit: unit, ..within(tolerance, 30.0) };
+    let reduced = reduce(take, skeleton, &settings).unwrap();
+    let worst = worst(take, &reduced.take, skeleton, &settings, |_, _| true);
+    ([reduced.keys_before, reduced.keys_after], worst)
 }
 
 #[test]

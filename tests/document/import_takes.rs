@@ -104,3 +104,24 @@ fn files_are_imported_with_the_map_of_the_user() {
     }
     assert!(document.wait_for_reply(notice).contains("no bone follows"), "the others are named");
 }
+
+#[test]
+fn a_take_of_a_capture_is_named_after_its_file_and_what_was_done_is_said_last() {
+    let folder = Folder::new("import-capture");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&fox(&folder));
+    let capture = folder.join("Sneak around.bvh");
+    let text = "HIERARCHY ROOT b_Hip_01 { OFFSET 0 0 0 CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation \
+                JOINT b_Spine01_02 { OFFSET 0 1 0 CHANNELS 3 Zrotation Yrotation Xrotation End Site { OFFSET 0 1 0 } } } \
+                MOTION Frames: 2 Frame Time: 0.1 0 1 0 0 0 0 0 0 0 0 1 2 0 90 0 0 0 30";
+    fs::write(&capture, text).expect("a file");
+    document.send(DocumentMessage::ImportTakes(ClipOrder::of(vec![capture])));
+    // The status line shows the last message: the view comes before the summary, not after it.
+    let mut is_shown = false;
+    let (text, was_shown) = document.wait_for_reply(|reply| {
+        is_shown |= matches!(reply, DocumentReply::View(view) if view.history.done == 1);
+        notice(reply).map(|text| (text, is_shown))
+    });
+    assert!(text.starts_with("Added Sneak around") && was_shown, "{text} {was_shown}");
+    assert_eq!(names(&document.view())[3], "Sneak around");
+}

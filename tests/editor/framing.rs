@@ -70,3 +70,30 @@ fn a_skeleton_without_meshes_is_shown_and_framed() {
     assert!(first > 2 && last < 157, "columns {first} to {last}");
     assert_eq!(studio.stage().device().errors(), 0);
 }
+
+#[test]
+fn a_skeleton_with_far_cameras_is_framed_without_them() {
+    let source = Source::File(data("gltf/Fox_skeleton.glb"));
+    let mut loaded = load_model(&source, &mut |_| {}, &Cancel::default()).expect("the skeleton opens");
+    let animation = &mut Arc::make_mut(&mut loaded.model).animation;
+    let skeleton = Arc::make_mut(&mut animation.skeleton);
+    let own = skeleton.len();
+    let mut camera = skeleton.bones[0].clone();
+    (camera.name, camera.parent, camera.rest.translation) =
+        ("Camera01".to_owned(), None, Vec3::splat(5000.0));
+    skeleton.bones.push(camera);
+    loaded.bounds.max = Vec3::splat(5000.0);
+    let mut state = State::new(Settings::default(), Instant::now());
+    let size = Vec2::new(780.0, 430.0);
+    state.execute(Request::Viewport(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size.x, size.y))));
+    let mut moving = dragonfly_anim::animation::Animation::of(&loaded.model);
+    state.show(View::opened(1, Arc::new(loaded)));
+    let view = GizmoView::new(&state.read().camera, size);
+    let places = moving.to_root_bone_poses(state.read().playback.take, 0.0)[..own].to_vec();
+    let seen = places.iter().filter_map(|place| view.to_screen(place.w_axis.truncate().as_dvec3()));
+    let seen: Vec<Vec2> = seen.map(|at| at.as_vec2()).collect();
+    let inside = seen.iter().filter(|at| at.min_element() > 0.0 && at.cmplt(size).all()).count();
+    assert_eq!(inside, own, "all bones of the figure");
+    let [top, bottom] = seen.iter().fold([f32::MAX, f32::MIN], |[a, b], at| [a.min(at.y), b.max(at.y)]);
+    assert!(bottom - top > 0.4 * size.y, "{top} to {bottom}");
+}

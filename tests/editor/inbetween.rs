@@ -304,3 +304,25 @@ fn the_reduce_slider_shows_the_number_of_keys_and_the_largest_error_before_it_is
     animator.release(to);
     assert_eq!(steps(&animator), 0);
 }
+
+#[test]
+fn after_a_drag_the_status_line_says_what_the_whole_drag_did() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Command(Id::SelectAllKeys));
+    animator.harness.get_by_label("In-between").click();
+    animator.steps(3);
+    enlarge(&mut animator);
+    let before = shown(&animator).keys();
+    let (from, to) = (place(&animator, "Reduce", -1.0), place(&animator, "Reduce", 0.9));
+    animator.drag(from, to);
+    let first = animator.said();
+    animator.release(to);
+    animator.steps(2);
+    let fewer = before - shown(&animator).keys();
+    let said = animator.said();
+    assert!(said.contains(&format!("  ·  {fewer} keys fewer  ·  ")), "{fewer} keys: {said}");
+    assert_ne!(first, said, "the first move of the drag removed as many keys, so the test is not meaningful");
+    // A bone that does not move, or does not turn, is not named as the one that does it most.
+    assert!(!said.contains(" 0.00"), "{said}");
+    assert_eq!(steps(&animator), 1);
+}

@@ -209,3 +209,14 @@ fn offsets_are_pasted_into_additive_layers_only_and_poses_never() {
     animator.request(Request::Seek(0.75));
     assert_eq!(paste(&mut animator, &offsets).0, 1, "into the layer they are of");
 }
+
+#[test]
+fn undo_of_a_merge_into_the_take_makes_the_layer_active_again() {
+    let mut animator = animator();
+    animator.request(Request::Command(Id::MergeLayerDown));
+    assert_eq!(animator.harness.state().state.read().layer(), None, "the take is edited");
+    animator.request(Request::Command(Id::Undo));
+    assert_eq!(animator.harness.state().state.read().layer(), Some(0), "the next pose belongs to the layer");
+    animator.request(Request::Command(Id::Redo));
+    assert_eq!(animator.harness.state().state.read().layer(), None);
+}

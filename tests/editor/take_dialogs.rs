@@ -102,3 +102,25 @@ fn a_loop_is_closed_shifted_and_found_by_the_dialog() {
     let Some(Edit::TrimTake(edit)) = animator.edits().last().copied() else { panic!("no edit") };
     assert_eq!((animator.edits().len(), [edit.from, edit.to]), (edits + 1, range));
 }
+
+#[test]
+fn the_path_of_a_source_is_typed_at_once_or_chosen_in_the_dialog_of_the_system() {
+    use dragonfly::panels::{Effect, FileAction, FileChoice};
+    use dragonfly_document::{DocumentMessage, Source};
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::Command(Id::Retarget));
+    animator.steps(2);
+    animator.harness.event(egui::Event::Text("fox.glb".to_owned()));
+    animator.steps(2);
+    animator.harness.key_press(egui::Key::Enter);
+    animator.steps(2);
+    let reads = |effect: &Effect| {
+        let wanted = std::path::Path::new("fox.glb");
+        matches!(effect, Effect::File(FileAction::Send(DocumentMessage::ReadSource(Source::File(path)))) if path == wanted)
+    };
+    let effects = &animator.harness.state().effects;
+    assert!(effects.iter().any(reads), "{:?}", effects.last());
+    click(&mut animator, "Choose file…");
+    let effects = &animator.harness.state().effects;
+    assert!(matches!(effects.last(), Some(Effect::Choose(FileChoice::RetargetSource, _))), "{effects:?}");
+}

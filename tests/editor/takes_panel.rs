@@ -315,3 +315,22 @@ fn trimming_keeps_the_play_range_while_playing_and_while_paused() {
         assert_eq!(window.state().state.read().keys.range(), None);
     }
 }
+
+#[test]
+fn the_first_of_the_takes_that_files_brought_is_shown() {
+    use dragonfly_document::Change;
+    use dragonfly_document::edit::{AddTake, AddTakes, Edit};
+    let mut window = Workbench::full().window();
+    let walk = window.state().state.read().view.unwrap().takes[1].clone();
+    let brought = ["Jump", "Fall"].map(|name| AddTake::of(name.to_owned(), &walk));
+    let edit = Edit::AddTakes(AddTakes { takes: brought.to_vec() });
+    window.state_mut().change(Change::Edit(edit, None));
+    window.run_steps(3);
+    assert_eq!(shown(&window).map(|take| names(&window)[take].clone()).as_deref(), Some("Jump"));
+    window.state_mut().change(Change::Undo);
+    window.run_steps(3);
+    assert_eq!(shown(&window), Some(2), "a neighbor of the takes that are gone");
+    window.state_mut().change(Change::Edit(Edit::AddTake(AddTake::of("Turn".to_owned(), &walk)), None));
+    window.run_steps(3);
+    assert_eq!(shown(&window), Some(3));
+}

@@ -1,97 +1,11 @@
-//! Daily tasks of an animator, done with mouse and keyboard alone, in no more actions than in Blender.
-//!
-//! An action is a click, a drag, a chord of keys or a typed value. The numbers for Blender are from daily practice, with default
-//! settings and shortcuts.
+//! Tasks of an animator with poses, keys and takes, done with mouse and keyboard alone, in no more actions than in Blender.
 
-use crate::timeline_rig::Animator;
+use crate::task_counts::{BONE, User};
 use dragonfly::panels::commands::{KeySettings, Preset};
-use dragonfly_anim::data::Take;
-use dragonfly_kit::document::fixture;
 use egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::Quat;
 use std::sync::Arc;
-
-/// A user whose actions are counted.
-struct User {
-    animator: Animator,
-    actions: usize,
-}
-
-/// The name of the bone that is edited, and its index.
-const BONE: (&str, u32) = ("rib_00_left_middle", 3);
-
-impl User {
-    fn new() -> Self {
-        Self { animator: Animator::new(fixture::full()), actions: 0 }
-    }
-
-    fn chord(&mut self, modifiers: Modifiers, key: Key) {
-        self.actions += 1;
-        self.animator.harness.key_press_modifiers(modifiers, key);
-        self.animator.steps(3);
-    }
-
-    fn click(&mut self, label: &str) {
-        self.actions += 1;
-        self.animator.harness.get_by_label(label).click();
-        self.animator.steps(3);
-    }
-
-    /// Clicks an entry of a menu, whose label begins with its title; a shortcut follows it.
-    fn menu(&mut self, menu: &str, entry: &str) {
-        self.click(menu);
-        self.actions += 1;
-        let entries = self.animator.harness.query_all_by_label_contains(entry);
-        entries.last().unwrap_or_else(|| panic!("no entry {entry}")).click();
-        self.animator.steps(3);
-    }
-
-    fn typed(&mut self, field: &str, value: &str) {
-        self.actions += 1;
-        self.animator.harness.get_by_label(field).click();
-        self.animator.steps(2);
-        self.animator.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-        self.animator.steps(1);
-        self.animator.harness.event(Event::Text(value.to_owned()));
-        self.animator.steps(2);
-        self.animator.harness.key_press(Key::Enter);
-        self.animator.steps(3);
-    }
-
-    /// Selects the bone in the list, as a click on its skin does.
-    fn select_bone(&mut self) {
-        self.click(BONE.0);
-        assert_eq!(self.animator.harness.state().state.read().selection.bones(), [BONE.1]);
-    }
-
-    fn take(&self, index: usize) -> Arc<Take> {
-        Arc::clone(&self.animator.edited.adapter().slots()[index].result)
-    }
-
-    /// Copies, and pastes what was copied with a chord: the tests have no clipboard of a desktop.
-    fn copy(&mut self) -> String {
-        self.actions += 1;
-        self.animator.harness.event(Event::Copy);
-        self.animator.steps(3);
-        let effects = &self.animator.harness.state().effects;
-        let copied = effects.iter().rev().find_map(|effect| match effect {
-            dragonfly::panels::Effect::Copy(text) => Some(text.clone()),
-            _ => None,
-        });
-        copied.expect("something was copied")
-    }
-
-    fn paste(&mut self, text: String, mirrored: bool) {
-        self.actions += 1;
-        self.animator.request(dragonfly::panels::Request::PastePose { text, mirrored });
-    }
-
-    #[track_caller]
-    fn takes_at_most(&self, in_blender: usize) {
-        assert!(self.actions <= in_blender, "{} actions, {in_blender} in Blender", self.actions);
-    }
-}
 
 #[test]
 fn playing_changing_the_take_and_undo_are_one_action_each() {
@@ -104,7 +18,7 @@ fn playing_changing_the_take_and_undo_are_one_action_each() {
     assert!(read(&user).0);
     user.chord(Modifiers::NONE, Key::PageDown);
     assert_eq!(read(&user).1, Some(1));
-    user.takes_at_most(1 + 3);
+    user.has_done("play, and change the take", 0);
 }
 
 #[test]
@@ -112,7 +26,7 @@ fn a_bone_is_rotated_by_a_typed_number_in_two_actions() {
     let mut user = User::new();
     user.select_bone();
     user.typed("Rotation change X", "30");
-    user.takes_at_most(3);
+    user.has_done("choose a bone, and rotate it by a typed number", 0);
     assert_eq!(user.animator.edited.steps().1, 1);
 }
 
@@ -126,7 +40,7 @@ fn an_arm_is_raised_over_the_whole_take_in_four_actions_exactly() {
     user.animator.harness.get_by_label_contains("Edit whole take").click();
     user.animator.steps(3);
     user.typed("Rotation change X", "20");
-    user.takes_at_most(5);
+    user.has_done("choose a bone, and rotate it over the whole take", 0);
     let after = user.take(0);
     let [before, after] = [before, after].map(|take| take.tracks[BONE.1 as usize].rotation.clone());
     let wanted = Quat::from_rotation_x(20_f32.to_radians());
@@ -143,7 +57,7 @@ fn a_jittering_curve_is_smoothed_in_three_actions_with_the_choice_of_the_bone() 
     user.chord(Modifiers::COMMAND | Modifiers::SHIFT, Key::A);
     user.chord(Modifiers::ALT, Key::O);
     // Blender: Alt+O over a graph editor that shows the selected keys.
-    user.takes_at_most(1 + 2);
+    user.has_done("choose a bone, and smooth its curves", 0);
     assert_ne!(
         before.tracks[BONE.1 as usize].rotation.values,
         user.take(0).tracks[BONE.1 as usize].rotation.values
@@ -155,7 +69,7 @@ fn a_loop_is_closed_in_three_actions_and_ends_in_its_first_pose() {
     let mut user = User::new();
     user.chord(Modifiers::NONE, Key::Home);
     user.menu("Take", "Close loop from here");
-    user.takes_at_most(4);
+    user.has_done("make a loop seamless", 0);
     let take = user.take(0);
     for track in &take.tracks {
         if let (Some(first), Some(last)) =
@@ -174,22 +88,22 @@ fn a_pose_is_copied_to_another_take_in_three_actions_and_mirrored_in_two() {
     let text = user.copy();
     user.chord(Modifiers::NONE, Key::PageDown);
     user.paste(text.clone(), false);
-    assert_eq!(user.actions - chosen, 3);
-    user.takes_at_most(6 + chosen);
+    user.has_done("copy a pose to another take", chosen);
     assert_eq!(user.animator.edited.steps().1, 1);
     let before = user.actions;
     let _copied = user.copy();
     user.paste(text, true);
-    assert!(user.actions - before <= 2);
+    user.has_done("copy a pose, and paste it mirrored", before);
 }
 
 #[test]
 fn ghosts_and_the_motion_path_are_one_action_each() {
     let mut user = User::new();
     user.select_bone();
+    let chosen = user.actions;
     user.chord(Modifiers::SHIFT, Key::G);
     user.chord(Modifiers::SHIFT, Key::P);
-    user.takes_at_most(1 + 3 + 4);
+    user.has_done("ghosts, and the motion path", chosen);
     let tools = &user.animator.harness.state().state.read().settings.tools;
     assert!(tools.ghosts.shown && tools.path);
 }
@@ -198,6 +112,7 @@ fn ghosts_and_the_motion_path_are_one_action_each() {
 fn keys_are_selected_moved_duplicated_and_deleted_with_one_or_two_actions_each() {
     let mut user = User::new();
     user.select_bone();
+    let chosen = user.actions;
     let animator = &mut user.animator;
     let (from, to) = (animator.at(animator.key(3) - 0.04, 4), animator.at(animator.key(5) + 0.04, 2));
     animator.drag(from, to);
@@ -208,12 +123,13 @@ fn keys_are_selected_moved_duplicated_and_deleted_with_one_or_two_actions_each()
     animator.drag(at, at + by);
     animator.release(at + by);
     assert_eq!(animator.edited.steps().1, 1, "a move is one drag");
+    user.actions += 2;
     let before = user.take(0).keys();
     user.chord(Modifiers::NONE, Key::Delete);
     assert_eq!(user.take(0).keys(), before - 3);
     user.chord(Modifiers::COMMAND, Key::Z);
     assert_eq!(user.take(0).keys(), before);
-    user.takes_at_most(1 + 1 + 1);
+    user.has_done("select keys with a box, move, delete, undo", chosen);
 }
 
 #[test]
@@ -224,7 +140,7 @@ fn a_bone_is_found_by_name_in_three_actions() {
     user.animator.harness.event(Event::Text("left_mid".to_owned()));
     user.animator.steps(3);
     user.chord(Modifiers::NONE, Key::Enter);
-    user.takes_at_most(3);
+    user.has_done("find a bone by its name", 0);
     let context = user.animator.harness.state().state.read();
     let bone = context.selected().expect("a bone");
     assert!(context.bone_name(bone).contains("left_mid"));
@@ -248,7 +164,7 @@ fn rotating_30_degrees_about_z_takes_the_four_keystrokes_of_blender() {
         user.animator.steps(1);
     }
     user.chord(Modifiers::NONE, Key::Enter);
-    assert_eq!(user.actions - chosen, 4);
+    user.has_done("rotate by 30° about Z (shortcuts of Blender)", chosen);
 }
 
 #[test]
@@ -276,7 +192,7 @@ fn a_part_is_slowed_down_in_two_drags_and_no_key_comes_between_others() {
     animator.release(grip + vec2(by, 0.0));
     user.actions += 2;
     // Blender: box select, S with a typed number, G for the keys after it, which are selected by another box.
-    assert!(user.actions - chosen <= 4);
+    user.has_done("slow down a part, with the keys after it", chosen);
     let after = user.animator.times(BONE.1 as usize);
     assert_eq!((after.len(), user.animator.edited.steps().1), (before.len(), 1));
     let grown = after[6] - after[2] - (before[6] - before[2]);
@@ -303,7 +219,7 @@ fn the_keys_of_a_bone_get_auto_tangents_in_two_actions() {
     user.animator.harness.get_by_label_contains("Auto tangents").click();
     user.animator.steps(3);
     // Blender: V and the entry of the menu.
-    assert!(user.actions - chosen <= 2);
+    user.has_done("auto tangents of the selected keys", chosen);
     let track = &user.take(0).tracks[BONE.1 as usize];
     assert_eq!(track.rotation.interpolation, dragonfly_anim::data::Interpolation::CubicSpline);
 }
@@ -322,7 +238,7 @@ fn saving_is_one_action() {
     };
     let effects = &user.animator.harness.state().effects;
     assert!(effects.iter().any(saves), "{:?}", effects.last());
-    assert_eq!(user.actions - chosen, 1);
+    user.has_done("save", chosen);
 }
 
 #[test]
@@ -330,14 +246,14 @@ fn feet_are_locked_over_a_take_in_three_actions() {
     let source = dragonfly_document::Source::File(dragonfly_kit::folder::data("gltf/Fox.glb"));
     let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &Default::default()).expect("the fox");
     let view = dragonfly_document::View::opened(1, Arc::new(loaded));
-    let mut user = User { animator: Animator::new(view), actions: 0 };
+    let mut user = User::with(view);
     let before = user.take(0);
     user.menu("Take", "Contacts");
     user.actions += 1;
     user.animator.harness.get_by_label_contains("Lock feet in contacts").click();
     user.animator.steps(3);
     // Blender: at least ten, with a rig first.
-    user.takes_at_most(10);
-    assert_eq!((user.actions, user.animator.edited.steps().1), (3, 1), "{}", user.animator.said());
+    user.has_done("lock the feet over a take", 0);
+    assert_eq!(user.animator.edited.steps().1, 1, "{}", user.animator.said());
     assert_ne!(before.tracks, user.take(0).tracks);
 }

@@ -74,3 +74,24 @@ fn a_mark_leads_to_the_problem_and_its_menu_fixes_it() {
     let left = animator.harness.state().state.read().take_findings().len();
     assert!(left < findings.len(), "{left} of {}", findings.len());
 }
+
+#[test]
+fn a_mark_without_a_fix_does_not_promise_one() {
+    let mut animator = Animator::with_bone(3);
+    // A bone that is half a meter away in one frame: no edit knows where it belongs.
+    edit(
+        &mut animator,
+        r#"{"edit":"set","take":0,"time":1.0,"poses":[{"bone":5,"translation":[0.5,0.5,0.5]}]}"#,
+    );
+    animator.request(Request::Command(Id::ToggleProblems));
+    check(&mut animator);
+    let hint_of = |animator: &mut Animator, label: &str| {
+        let mark = animator.harness.query_all_by_label_contains(label).next();
+        let at = mark.unwrap_or_else(|| panic!("no {label}")).rect().center();
+        animator.move_to(at);
+        animator.steps(90);
+        let fix = animator.harness.query_all_by_label_contains("right-click to fix it").count();
+        (animator.harness.query_all_by_label_contains("Click to go there").count(), fix)
+    };
+    assert_eq!(hint_of(&mut animator, "Stretched bone: "), (1, 0));
+}

@@ -64,6 +64,8 @@ impl Document {
                 if !done.takes.is_empty() {
                     let edit = Edit::AddTakes(AddTakes { takes: done.takes });
                     self.change(Change::Edit(edit, None), None, now);
+                    // The view goes first: the status line shows the last message.
+                    self.publish();
                 }
                 match &*done.failed {
                     [] => self.reply(DocumentReply::Notice(summary)),

@@ -11,7 +11,7 @@ use dragonfly_anim::retarget::{
 use std::collections::HashSet;
 
 /// Names of takes that programs give by themselves, in lower case; takes with these names are called after their file.
-const GENERIC: [&str; 9] = [
+const GENERIC: [&str; 10] = [
     "mixamo.com",
     "take 001",
     "take001",
@@ -21,6 +21,8 @@ const GENERIC: [&str; 9] = [
     "default take",
     "armature|mixamo.com|layer0",
     "unreal take",
+    // The one of a BVH file.
+    "motion",
 ];
 
 /// How takes are named that come from a file.
@@ -142,7 +144,7 @@ fn unmatched(source: &Skeleton, binding: &SkeletonBinding, mut moved: Vec<BoneIn
 }
 
 /// Returns the name of a take of a file of which `count` takes are wanted.
-fn take_name(title: &str, take: &Take, count: usize, naming: ClipNaming) -> String {
+pub(super) fn take_name(title: &str, take: &Take, count: usize, naming: ClipNaming) -> String {
     let file = file_stem(title);
     // Blender names takes after the object, too: `Armature|Walk`.
     let own =

@@ -2,6 +2,7 @@
 
 use super::LoadedModel;
 use super::bone_map::BoneMap;
+use super::clips::{ClipNaming, take_name};
 use crate::adapter::ModelAdapter;
 use crate::edit::AddTake;
 use dragonfly_anim::data::{BoneIndex, ModelData};
@@ -85,8 +86,8 @@ pub(super) fn computed(
     let done =
         retarget_figure(take, from, to, &binding, &order.options).map_err(|error| error.to_string())?;
     let is_used = |name: &str| adapter.slots().iter().any(|slot| slot.original.name == name);
-    let base = if take.name.trim().is_empty() { "Take" } else { &take.name };
-    let numbered = |number: usize| if number == 1 { base.to_owned() } else { format!("{base} {number}") };
+    let base = take_name(&source.title, take, 1, ClipNaming::Automatic);
+    let numbered = |number: usize| if number == 1 { base.clone() } else { format!("{base} {number}") };
     let name = (1..=adapter.slots().len() + 1).map(numbered).find(|name| !is_used(name)).unwrap_or_default();
     let feet = match done.contacts.len() {
         0 => String::new(),

@@ -79,6 +79,8 @@ impl Document {
             }
             RetargetNews::Take(Ok((add, text))) => {
                 self.change(Change::Edit(Edit::AddTake(*add), None), None, now);
+                // The view goes first: the status line shows the last message.
+                self.publish();
                 self.reply(DocumentReply::Notice(text));
             }
             RetargetNews::Map(Ok(map)) => self.reply(DocumentReply::MapRead(map)),

@@ -61,6 +61,8 @@ pub struct HistoryView {
     pub amounts: Vec<Option<StepAmount>>,
     /// Whether the status line shows how far the last applied step moves bones.
     pub shows_difference: bool,
+    /// Whether the last applied step adds takes of other files.
+    pub brings_takes: bool,
     /// Number of steps that are applied; the others can be redone.
     pub done: usize,
     /// Whether nothing is unsaved.
@@ -78,8 +80,9 @@ impl HistoryView {
         let amounts = steps.iter().map(|step| step.amount).collect();
         let last = done.checked_sub(1).and_then(|last| steps.get(last));
         let shows_difference = last.is_some_and(|step| step.edit.shows_difference());
+        let brings_takes = last.is_some_and(|step| step.edit.brings_takes());
         let (saved, saved_at) = (edited.is_saved(), edited.saved());
-        Self { steps: labels, about, amounts, shows_difference, done, saved, saved_at }
+        Self { steps: labels, about, amounts, shows_difference, brings_takes, done, saved, saved_at }
     }
 
     /// Returns the last unsaved step as a sentence; `None` where nothing is unsaved.

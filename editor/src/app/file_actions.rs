@@ -156,6 +156,9 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                 FileChoice::PoseFolder => Request::PoseFolder(path),
                 FileChoice::Reference => Request::ReferenceFile(path),
                 FileChoice::Sound => Request::Sound(SoundSettings { file: path, start: 0 }),
+                FileChoice::RetargetSource => {
+                    Request::Answer(FileAction::Send(DocumentMessage::ReadSource(Source::File(path))))
+                }
                 FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
                 FileChoice::MappedTakes => {
                     Request::ImportMapped(std::iter::once(path).chain(others).collect())

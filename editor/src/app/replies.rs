@@ -123,7 +123,15 @@ fn opened(interface: &mut Interface, loaded: &LoadedModel) {
     for note in &loaded.notes {
         state.say(MessageSeverity::Info, format!("{}: {note}", loaded.title));
     }
-    state.say(MessageSeverity::Info, format!("Opened {}", loaded.title));
+    let opened = format!("Opened {}", loaded.title);
+    match loaded.warnings.len() {
+        0 => state.say(MessageSeverity::Info, opened),
+        // The newest message is the one that is shown.
+        1 => state.say(MessageSeverity::Warning, format!("{opened}, with a warning: see Properties")),
+        many => {
+            state.say(MessageSeverity::Warning, format!("{opened}, with {many} warnings: see Properties"));
+        }
+    }
     say_passed_over(state, passed_over);
     let edits = std::mem::take(&mut interface.edits).into_iter();
     interface.effects.extend(edits.map(|edit| Effect::Change(Change::Edit(edit, None))));

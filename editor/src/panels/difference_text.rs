@@ -8,8 +8,8 @@ const MOST: usize = 1_000_000;
 /// Largest number of bones times samples of a comparison: about 20 ms.
 const SAMPLES: usize = 200_000;
 
-/// Returns the largest distance and angle with their bones and frames: `12.30 mm Head frame 7 · 4.10° Neck frame 9`. `None`
-/// where the take is too long to be compared in a frame.
+/// Returns the largest distance and angle with their bones and frames: `12.30 mm Head frame 7 · 4.10° Neck frame 9`. What is zero
+/// is left out. `None` where the take is too long to be compared in a frame.
 pub(super) fn difference_text(
     (before, now): (&Take, &Take),
     skeleton: &Skeleton,
@@ -22,13 +22,14 @@ pub(super) fn difference_text(
     let (far, turned) = (difference.farthest()?, difference.most_turned()?);
     let frame = |time: f32| (f64::from(time) * f64::from(frame_rate)).round();
     let name = |bone: u32| skeleton.bones.get(bone as usize).map_or("", |bone| bone.name.as_str());
-    Some(format!(
-        "{:.2} mm {} frame {} · {:.2}° {} frame {}",
-        far.distance.value * 1000.0,
-        name(far.first),
-        frame(far.distance.time),
-        turned.angle.value.to_degrees(),
-        name(turned.first),
-        frame(turned.angle.time),
-    ))
+    let largest = |amount: f32, unit: &str, bone: u32, time: f32| {
+        let amount = format!("{amount:.2}");
+        (amount != "0.00").then(|| format!("{amount}{unit} {} frame {}", name(bone), frame(time)))
+    };
+    let parts = [
+        largest(far.distance.value * 1000.0, " mm", far.first, far.distance.time),
+        largest(turned.angle.value.to_degrees(), "°", turned.first, turned.angle.time),
+    ];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    Some(if parts.is_empty() { "no bone moves".to_owned() } else { parts.join(" · ") })
 }

@@ -11,6 +11,8 @@ pub enum FileChoice {
     Reference,
     /// The sound in the timeline.
     Sound,
+    /// The model whose takes are wanted in the dialog for retargeting.
+    RetargetSource,
     /// Files whose takes are imported; several can be chosen.
     Takes,
     /// Files whose takes are imported with the map of the dialog for retargeting; several can be chosen.
@@ -24,6 +26,7 @@ impl FileChoice {
             Self::PoseFolder => "Choose the folder of poses",
             Self::Reference => "Choose a reference picture",
             Self::Sound => "Choose a sound",
+            Self::RetargetSource => "Choose the model with the take",
             Self::Takes | Self::MappedTakes => "Import takes",
         }
     }
@@ -34,7 +37,9 @@ impl FileChoice {
             Self::PoseFolder => None,
             Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
             Self::Sound => Some(("Sounds", vec!["wav", "flac", "ogg"])),
-            Self::Takes | Self::MappedTakes => Some(("Models", formats().extensions())),
+            Self::RetargetSource | Self::Takes | Self::MappedTakes => {
+                Some(("Models", formats().extensions()))
+            }
         }
     }
 
@@ -43,7 +48,9 @@ impl FileChoice {
         match self {
             Self::PoseFolder => "This desktop has no dialog for choosing folders; type the path instead",
             Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
-            Self::Reference => "This desktop has no dialog for choosing files; type the path instead",
+            Self::Reference | Self::RetargetSource => {
+                "This desktop has no dialog for choosing files; type the path instead"
+            }
             Self::Takes | Self::MappedTakes => {
                 "This desktop has no dialog for choosing files; drop the files on the window instead"
             }

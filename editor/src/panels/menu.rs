@@ -1,10 +1,11 @@
 //! The menu bar.
 
-use super::commands::{self, Category, Id};
+use super::commands::{self, Category, Command, Id};
 use super::compared::CompareWith;
 use super::context::PanelContext;
 use super::edit_scope_menu;
 use super::icons::Icon;
+use super::keys_menu;
 use super::request::Request;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
@@ -36,7 +37,7 @@ pub fn show(
         ui.menu_button("Pose", |ui| scrolled(ui, |ui| pose(ui, context, requests)));
         ui.menu_button("Tools", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Tools], requests)));
         ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
-        ui.menu_button("Keys", |ui| scrolled(ui, |ui| keys(ui, context, requests)));
+        ui.menu_button("Keys", |ui| scrolled(ui, |ui| keys_menu::show(ui, context, requests)));
         ui.menu_button("Take", |ui| {
             scrolled(ui, |ui| {
                 submenu(ui, "Contacts", |ui| list(ui, context, &[Category::Contacts], requests));
@@ -72,7 +73,11 @@ fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
 const GUTTER: f32 = 20.0;
 
 /// Draws a button that opens a menu, with its title below those of the other entries.
-fn submenu<R>(ui: &mut Ui, title: impl Into<egui::WidgetText>, entries: impl FnOnce(&mut Ui) -> R) {
+pub(super) fn submenu<R>(
+    ui: &mut Ui,
+    title: impl Into<egui::WidgetText>,
+    entries: impl FnOnce(&mut Ui) -> R,
+) {
     ui.scope(|ui| {
         ui.spacing_mut().button_padding.x += GUTTER;
         let title: egui::WidgetText = title.into();
@@ -115,7 +120,18 @@ pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, re
 }
 
 fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], requests: &mut Vec<Request>) {
-    for command in categories.iter().flat_map(|category| commands::of(*category)) {
+    let listed = categories.iter().flat_map(|category| commands::of(*category));
+    entries(ui, context, listed, requests);
+}
+
+/// Draws entries, with the lines below the last ones of groups.
+pub(super) fn entries(
+    ui: &mut Ui,
+    context: &PanelContext<'_>,
+    listed: impl Iterator<Item = &'static Command>,
+    requests: &mut Vec<Request>,
+) {
+    for command in listed {
         let on = match command.id {
             Id::CompareOpened => context.compared == CompareWith::Opened,
             Id::UndoSelections => context.settings.undo_selections,
@@ -154,15 +170,9 @@ const GROUP_ENDS: &[Id] = &[
     Id::LassoSelect,
     // Keys
     Id::InvertKeys,
-    Id::DuplicateKeysNow,
     Id::CopyKeys,
-    Id::KeysReverse,
     Id::ToggleSnap,
-    Id::InterpolateSpline,
-    Id::TangentsUnified,
     Id::RippleClose,
-    Id::ToggleRulerSeconds,
-    Id::NextMarker,
     // Take
     Id::MoveTakeDown,
     Id::ReverseTake,
@@ -186,33 +196,6 @@ fn sets(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
             }
         }
     });
-}
-
-/// Draws the commands for keys: those that change values in two menus of their own.
-fn keys(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let inbetweens = commands::of(Category::InBetween);
-    let smooth = inbetweens.iter().position(|command| command.id == Id::SmoothKeys).unwrap_or_default();
-    for (title, commands) in [("In-between", &inbetweens[..smooth]), ("Smooth, bake", &inbetweens[smooth..])]
-    {
-        submenu(ui, title, |ui| {
-            for command in commands {
-                item(ui, context, command.id, false, requests);
-                let ends_group = [
-                    Id::RelaxKeys,
-                    Id::BlendToNext,
-                    Id::EaseOutKeys,
-                    Id::BlendToTake,
-                    Id::DelayKeys,
-                    Id::RemovePeaks,
-                ];
-                if ends_group.contains(&command.id) {
-                    ui.separator();
-                }
-            }
-        });
-    }
-    ui.separator();
-    list(ui, context, &[Category::Keys], requests);
 }
 
 fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -59,7 +59,7 @@ impl Overlays {
             Overlay::Shortcuts => self.shortcuts.show(ui, context, requests),
             Overlay::About => about(ui, context, requests),
             Overlay::MirrorPairs => self.mirror.show(ui, context, requests),
-            Overlay::Retarget => self.retarget.show(ui, context, requests),
+            Overlay::Retarget => self.retarget.show(ui, fresh, context, requests),
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::Loop => self.loops.show(ui, context, requests),
             Overlay::Reference => self.reference.show(ui, context, requests),

@@ -3,6 +3,8 @@
 use super::bone_choice::{BoneChoice, add_left, names};
 use super::context::PanelContext;
 use super::dialog_preview::DialogPreview;
+use super::file_choice::FileChoice;
+use super::icons::Icon;
 use super::overlay_title;
 use super::request::{FileAction, Request};
 use super::shown_skeleton::{ShownSkeleton, SkeletonChange};
@@ -14,7 +16,7 @@ use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::retarget::{BindingGuess, BoneRole, FigureOptions, SkeletonBinding};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{BoneMap, ClipOrder, DocumentMessage, LoadedModel, MapFile, RetargetOrder, Source};
-use egui::{Button, Key, Popup, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2};
+use egui::{Button, Key, Popup, Response, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -58,8 +60,14 @@ impl Default for RetargetDialog {
 }
 
 impl RetargetDialog {
-    /// Draws the dialog.
-    pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    /// Draws the dialog; `fresh` where it was not shown in the frame before.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        fresh: bool,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
         ui.set_width(WIDTH);
         overlay_title::show(ui, "Retarget from file", requests);
         let theme = Theme::of(ui);
@@ -67,10 +75,8 @@ impl RetargetDialog {
             ui.label(RichText::new("Open the model that is to get the take first").color(theme.weak));
             return;
         };
-        let path = path_field(ui, &mut self.path, "Path of the model with the take", &["Read"]);
-        if let Some((_, path)) = path {
-            send(requests, DocumentMessage::ReadSource(Source::File(path)));
-        }
+        let has_source = context.retarget.source().is_some();
+        self.file_row(ui, fresh && !has_source, context, requests);
         let Some(source) = context.retarget.source() else {
             let text = "The bones of both models appear here. Names of Mixamo, Unreal, VRM, Rigify, CMU, KayKit and Quaternius are known.";
             ui.label(RichText::new(text).small().color(theme.weak));
@@ -82,6 +88,34 @@ impl RetargetDialog {
         self.map_row(ui, context, source, requests);
         self.show_source(ui, context, requests);
         self.last_row(ui, context, source, requests);
+    }
+
+    /// Draws the field for the file with the take, and the button that shows the system's dialog.
+    fn file_row(
+        &mut self,
+        ui: &mut Ui,
+        takes_focus: bool,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        ui.horizontal(|ui| {
+            let browse = widgets::icon_button(ui, Icon::Open, "Choose file…", false);
+            if browse.on_hover_text("Choose file…\nShows the system's dialog for files").clicked() {
+                requests.push(Request::Choose(FileChoice::RetargetSource, context.model_folder()));
+            }
+            let (field, pressed) = path_field(
+                ui,
+                &mut self.path,
+                "Path of the model with the take",
+                (WIDTH - 36.0, &["Read"][..]),
+            );
+            if takes_focus {
+                field.request_focus();
+            }
+            if let Some((_, path)) = pressed {
+                send(requests, DocumentMessage::ReadSource(Source::File(path)));
+            }
+        });
     }
 
     /// Guesses the map of new models, and applies a map that was read.
@@ -203,7 +237,8 @@ impl RetargetDialog {
         source: &LoadedModel,
         requests: &mut Vec<Request>,
     ) {
-        let pressed = path_field(ui, &mut self.map_path, "Path of a bone map", &["Load map", "Save map"]);
+        let buttons = (WIDTH, &["Load map", "Save map"][..]);
+        let (_, pressed) = path_field(ui, &mut self.map_path, "Path of a bone map", buttons);
         if let Some((button, path)) = pressed {
             let map = self.bone_map(context, source).filter(|_| button > 0);
             let file = map.map_or(MapFile::Read(path.clone()), |map| MapFile::Write(path, map));
@@ -273,11 +308,17 @@ fn send(requests: &mut Vec<Request>, message: DocumentMessage) {
     requests.push(Request::Answer(FileAction::Send(message)));
 }
 
-/// Draws a field for a path with buttons. Returns the index of the pressed button and the path; Enter presses the first.
-fn path_field(ui: &mut Ui, text: &mut String, name: &str, buttons: &[&str]) -> Option<(usize, PathBuf)> {
+/// Draws a field for a path with buttons, on a width. Returns the field, and the index of the pressed button with the path; Enter
+/// presses the first.
+fn path_field(
+    ui: &mut Ui,
+    text: &mut String,
+    name: &str,
+    (width, buttons): (f32, &[&str]),
+) -> (Response, Option<(usize, PathBuf)>) {
     let mut pressed = None;
-    ui.horizontal(|ui| {
-        let width = WIDTH - 90.0 * buttons.len() as f32;
+    let field = ui.horizontal(|ui| {
+        let width = width - 90.0 * buttons.len() as f32;
         let field =
             TextEdit::singleline(text).hint_text(name).desired_width(width).font(TextStyle::Monospace);
         let field = ui.add(field).accessible_name(name);
@@ -290,7 +331,8 @@ fn path_field(ui: &mut Ui, text: &mut String, name: &str, buttons: &[&str]) -> O
                 pressed = Some(index);
             }
         }
+        field
     });
     let path = text.trim().trim_matches('"');
-    pressed.filter(|_| !path.is_empty()).map(|button| (button, PathBuf::from(path)))
+    (field.inner, pressed.filter(|_| !path.is_empty()).map(|button| (button, PathBuf::from(path))))
 }

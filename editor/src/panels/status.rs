@@ -84,9 +84,19 @@ impl Status {
         self.weighs_more = keep;
     }
 
-    /// Adds a remark about a change, unless the last message is more detailed.
-    pub(super) fn remark(&mut self, text: impl Into<String>) {
-        if !std::mem::take(&mut self.weighs_more) {
+    /// Adds a remark about a change, unless the last message is more detailed. Returns whether it was added.
+    pub(super) fn remark(&mut self, text: impl Into<String>) -> bool {
+        let is_added = !std::mem::take(&mut self.weighs_more);
+        if is_added {
+            self.say(MessageSeverity::Info, text);
+        }
+        is_added
+    }
+
+    /// Replaces the newest message by an information; does nothing if it is the same.
+    pub(super) fn replace_last(&mut self, text: String) {
+        if self.last().is_none_or(|last| last.text != text) {
+            self.lines.pop_back();
             self.say(MessageSeverity::Info, text);
         }
     }

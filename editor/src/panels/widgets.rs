@@ -184,6 +184,12 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
+/// Draws a small button that opens a menu: the current choice, cut in the middle where there is no room, and an arrow.
+pub(super) fn choice_button(ui: &mut Ui, text: &str) -> Response {
+    let shown = cut_in_middle(ui, text, ui.available_width() - 24.0, &TextStyle::Small);
+    quiet_button(ui, Icon::Down, false, &shown, text)
+}
+
 /// Draws a quiet button: a small icon before or after a small text. `name` is its accessible name.
 pub(super) fn quiet_button(ui: &mut Ui, icon: Icon, before: bool, text: &str, name: &str) -> Response {
     let font = TextStyle::Small.resolve(ui.style());

@@ -27,6 +27,7 @@ use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
 use super::sound::SoundTrack;
 use super::status::{MessageSeverity, Status};
+use super::step_remark::StepRemark;
 use super::take_findings::TakeFindings;
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
@@ -95,6 +96,8 @@ pub(super) struct Workspace {
     pub(super) sound: SoundTrack,
     /// Messages of the status line.
     pub(super) status: Status,
+    /// The remark about the newest step.
+    pub(super) remark: StepRemark,
     /// Settings that are remembered between runs.
     pub(super) settings: Settings,
     /// Marks of bones that are remembered for each file.
@@ -136,6 +139,7 @@ impl Workspace {
             reference: ReferenceTrack::default(),
             sound: SoundTrack::default(),
             status: Status::default(),
+            remark: StepRemark::default(),
             settings,
             marks: Marks::default(),
             window: WindowStatus::default(),

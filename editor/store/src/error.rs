@@ -42,31 +42,31 @@ impl SaveStep {
 #[derive(Debug, thiserror::Error)]
 pub enum FileSaveError {
     /// Another program changed the file.
-    #[error("{path}: was changed on the disk by another program; it was not overwritten", path = .path.display())]
+    #[error("{path} was changed on the disk by another program; it was not overwritten", path = .path.display())]
     Changed {
         /// The file.
         path: PathBuf,
     },
     /// A new file was expected, but there is one already.
-    #[error("{path}: exists already; it was not overwritten", path = .path.display())]
+    #[error("{path} exists already; it was not overwritten", path = .path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
     /// The file is read-only, or the user has no permission to write it.
-    #[error("{path}: is write-protected; it was not overwritten", path = .path.display())]
+    #[error("{path} is write-protected; it was not overwritten", path = .path.display())]
     Protected {
         /// The file.
         path: PathBuf,
     },
     /// A folder, pipe, device or socket.
-    #[error("{path}: is not a regular file", path = .path.display())]
+    #[error("{path} is not a regular file", path = .path.display())]
     NotRegular {
         /// Path of the folder, pipe, device or socket.
         path: PathBuf,
     },
     /// The path does not end in a file name, or its links form a circle.
-    #[error("{path}: is not the name of a file", path = .path.display())]
+    #[error("{path} is not the name of a file", path = .path.display())]
     NoName {
         /// The path.
         path: PathBuf,

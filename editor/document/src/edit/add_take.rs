@@ -164,6 +164,8 @@ impl EditKind for AddTake {
         description: "Adds a take in which the head turns.",
     };
 
+    const BRINGS_TAKES: bool = true;
+
     fn label(&self) -> &'static str {
         "Add take"
     }

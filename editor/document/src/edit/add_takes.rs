@@ -40,6 +40,8 @@ impl EditKind for AddTakes {
         description: "Adds takes in one step.",
     };
 
+    const BRINGS_TAKES: bool = true;
+
     fn label(&self) -> &'static str {
         "Add takes"
     }

@@ -24,6 +24,9 @@ pub(crate) trait EditKind: MapReferences {
     /// between them.
     const SHOWS_DIFFERENCE: bool = false;
 
+    /// Whether it adds takes of other files, of which the first is shown then.
+    const BRINGS_TAKES: bool = false;
+
     /// Returns the name of the edit for the history and the undo command, in a few words.
     fn label(&self) -> &'static str;
 
@@ -218,6 +221,11 @@ macro_rules! edits {
             /// Returns whether the status line shows how far it moves bones.
             pub(crate) fn shows_difference(&self) -> bool {
                 match self { $(Self::$Kind(_) => <$Kind as EditKind>::SHOWS_DIFFERENCE,)* }
+            }
+
+            /// Returns whether it adds takes of other files.
+            pub(crate) fn brings_takes(&self) -> bool {
+                match self { $(Self::$Kind(_) => <$Kind as EditKind>::BRINGS_TAKES,)* }
             }
 
             /// Returns the offsets of an edit that moves bones at many keys.

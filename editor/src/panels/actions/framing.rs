@@ -8,11 +8,39 @@ use egui::{Pos2, Rect};
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 
-/// Frames the model in its rest pose.
+/// Frames a model that was just opened: in its rest pose or, without a surface, its largest tree of bones at the time shown.
 pub(super) fn frame_model(workspace: &mut Workspace) {
-    if let Some(loaded) = workspace.model.loaded() {
+    if let Some([min, max]) = figure_box(workspace) {
+        workspace.camera.frame(min, max);
+    } else if let Some(loaded) = workspace.model.loaded() {
         workspace.camera.frame(loaded.bounds.min, loaded.bounds.max);
     }
+}
+
+/// Returns the box around the largest tree of bones at the time shown; `None` for a model with a surface or without bones. A file of
+/// motion often contains cameras and targets far from the figure, and a capture is often far from its rest pose.
+fn figure_box(workspace: &mut Workspace) -> Option<[Vec3; 2]> {
+    let view = workspace.model.view().filter(|view| view.loaded.model.instances.is_empty())?;
+    let bones = &view.loaded.model.animation.skeleton.bones;
+    let mut roots: Vec<usize> = Vec::with_capacity(bones.len());
+    let mut counts = vec![0_usize; bones.len()];
+    for (bone, own) in bones.iter().enumerate() {
+        let parent = own.parent.and_then(|parent| roots.get(parent as usize));
+        let root = parent.copied().unwrap_or(bone);
+        roots.push(root);
+        counts[root] += 1;
+    }
+    let (take, time) = (workspace.player.take(), workspace.player.time());
+    let to_root = workspace.posed.update(view, take, time).to_root();
+    let largest = *roots.iter().max_by_key(|&&root| (counts[root], std::cmp::Reverse(root)))?;
+    let at = to_root.iter().zip(&roots).filter(|(_, root)| **root == largest);
+    let places = at.map(|(matrix, _)| matrix.w_axis.truncate()).filter(|place| place.is_finite());
+    let [min, max] = places.fold(None, |area: Option<[Vec3; 2]>, place| {
+        Some(area.map_or([place; 2], |[min, max]| [min.min(place), max.max(place)]))
+    })?;
+    // The last bones of limbs have a length, too.
+    let margin = Vec3::splat((0.05 * min.distance(max)).max(1e-4));
+    Some([min - margin, max + margin])
 }
 
 /// Frames the model in the pose at the time shown, which may be larger than the rest pose.

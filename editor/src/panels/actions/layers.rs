@@ -50,8 +50,9 @@ pub(in crate::panels) fn merge_down(workspace: &mut Workspace) -> Option<Effect>
     let take = active(workspace)?;
     let below = workspace.read().layer()?.checked_sub(1);
     let below = below.and_then(|below| Some(workspace.read().layers().get(below)?.keys.id));
-    workspace.layers.choose(below);
+    // Merged into the take, the layer stays chosen, so that it is active again after an undo.
     if below.is_some() {
+        workspace.layers.choose(below);
         workspace.layers.choose_next_new();
     }
     Some(edit(Edit::MergeLayers(MergeLayers { take })))

@@ -1,5 +1,6 @@
 //! Playback: which time of which take is shown.
 
+use crate::panels::change_summary;
 use crate::panels::ruler;
 use crate::panels::settings::SPEEDS;
 use crate::panels::status::MessageSeverity;
@@ -17,8 +18,14 @@ pub(in crate::panels) fn show_take(workspace: &mut Workspace, index: Option<usiz
 }
 
 /// Follows the take that is shown to its index in a newer view; if it is gone, shows its neighbor. Shows a take that
-/// was just created by a command.
+/// was just created by a command, and the first of those that were just added from files.
 pub(in crate::panels) fn follow_take(workspace: &mut Workspace, before: Option<&View>) {
+    let views = before.zip(workspace.model.view());
+    if views.is_some_and(|(old, new)| {
+        new.history.brings_takes && !change_summary::same_steps(&old.history, &new.history)
+    }) {
+        workspace.takes.show_next_new();
+    }
     let before = before.map_or(&[][..], |view| &view.slots);
     if let Some(new) = workspace.takes.update(before, workspace.model.slots()) {
         let time = workspace.player.time();

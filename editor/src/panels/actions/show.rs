@@ -62,8 +62,11 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
             let kept = old.history.done.min(new.history.done.saturating_sub(1));
             workspace.trail.forget_after(kept);
         }
-        if let Some(summary) = change_summary::describe_change(old, new, workspace.frame_rate.get()) {
-            workspace.status.remark(summary);
+        let (rate, status) = (workspace.frame_rate.get(), &mut workspace.status);
+        match change_summary::describe_change(old, new, rate) {
+            Some(summary) => workspace.remark.say(old, summary, status),
+            None if !workspace.dragging.is_open() => workspace.remark.update(new, rate, status),
+            None => {}
         }
     }
     drags::settle_keys(workspace);

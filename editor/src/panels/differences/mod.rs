@@ -98,7 +98,7 @@ fn choose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) 
         }),
     };
     let text = format!("Compare with: {}", name(context.compared));
-    let button = ui.add(Button::new(RichText::new(text).small()).frame(false));
+    let button = widgets::choice_button(ui, &text);
     let button = button.on_hover_text("Compared take\nThe viewport shows its pose as a second skeleton");
     Popup::menu(&button).show(|ui| {
         ScrollArea::vertical().max_height(300.0).show(ui, |ui| {

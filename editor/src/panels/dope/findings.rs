@@ -43,15 +43,17 @@ pub(super) fn show(ui: &Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
         let corners = vec![center + vec2(-4.0, 3.5), center + vec2(4.0, 3.5), center + vec2(0.0, -3.5)];
         painter.add(Shape::convex_polygon(corners, color, Stroke::NONE));
         let (frame, unit) = (frame_of(finding.time, context.frame_rate), finding.rule.unit());
-        let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(format!(
-            "{title}: {name}, frame {frame}, {:.1} {unit}\nClick to go there, right-click to fix it",
-            finding.amount
-        ));
+        let fix = fix(finding, context);
+        let hint =
+            if fix.is_some() { "Click to go there, right-click to fix it" } else { "Click to go there" };
+        let response = response
+            .on_hover_cursor(CursorIcon::PointingHand)
+            .on_hover_text(format!("{title}: {name}, frame {frame}, {:.1} {unit}\n{hint}", finding.amount));
         if response.clicked_by(PointerButton::Primary) {
             requests.push(Request::Select(Some(finding.bone)));
             requests.push(Request::Seek(finding.time));
         }
-        response.context_menu(|ui| match fix(finding, context) {
+        response.context_menu(|ui| match fix {
             Some((title, request)) => {
                 if ui.add(Button::new(title).frame_when_inactive(false)).clicked() {
                     requests.push(request);
@@ -59,7 +61,7 @@ pub(super) fn show(ui: &Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
                 }
             }
             None => {
-                ui.label(egui::RichText::new("No edit fixes this by itself").color(Theme::of(ui).weak));
+                ui.label(egui::RichText::new("There is no automatic fix").color(Theme::of(ui).weak));
             }
         });
     }

@@ -104,8 +104,8 @@ fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
     }
     if let Some(layer) = context.layer() {
         ui.separator();
-        ui.menu_button("Move to take", |ui| move_to_take(ui, context, layer, requests));
-        ui.menu_button("Color", |ui| colors(ui, context, layer, requests));
+        menu::submenu(ui, "Move to take", |ui| move_to_take(ui, context, layer, requests));
+        menu::submenu(ui, "Color", |ui| colors(ui, context, layer, requests));
     }
 }
 
