@@ -38,6 +38,7 @@
 pub mod bvh;
 mod context;
 mod convention;
+mod decimal;
 mod definition;
 pub mod dfm;
 mod edited;
