@@ -197,7 +197,7 @@ fn sampling_agrees_with_the_open_path_on_the_decompressed_take_at_any_time() {
 }
 
 /// Bones that rotate, move and scale at random, with `keys` keys, thirty per second.
-fn random_take(random: &mut Random, bones: usize, keys: usize) -> Take {
+pub(crate) fn random_take(random: &mut Random, bones: usize, keys: usize) -> Take {
     let times: Vec<f32> = (0..keys).map(|key| key as f32 / 30.0).collect();
     let tracks = (0..bones).map(|_| {
         let (calm, size) = (random.choice(&[0.0, 0.01, 0.2, 3.0]), random.choice(&[0.0, 0.01, 1.0]));

@@ -77,6 +77,7 @@ mod retarget_figure;
 mod retarget_limbs;
 mod root_bone;
 mod rules;
+mod same_bits;
 mod sampling;
 mod save_compact;
 mod save_edits;

@@ -1,7 +1,7 @@
 //! Matrices and pairs of rows of every instruction set give the same results as scalar calculations. All numbers are
 //! small and whole, so that nothing is rounded.
 
-use dragonfly_anim::fast::simd::{Float4, Float8, Kernel, RowPair, Rows, Simd, SimdLevel};
+use dragonfly_anim::fast::simd::{Arithmetic, Float4, Float8, Kernel, RowPair, Rows, Simd, SimdLevel};
 
 type Matrix = [f32; 12];
 
@@ -95,11 +95,81 @@ impl Kernel for PairsOfRows {
         let row = S::F8::load(&self.1);
         let [mut a, mut b, mut c, mut d, mut e, mut f, mut g, mut h, mut sum] = [[0.0; 8]; 9];
         pair.store_rows(&mut a, &mut b);
-        pair.mul_add(S::Pair::both(row), other * other).store_rows(&mut c, &mut d);
+        pair.times_plus(S::Pair::both(row), other * other).store_rows(&mut c, &mut d);
         S::Pair::chosen(mask, pair, other).store_rows(&mut e, &mut f);
-        S::Pair::zero().mul_add(pair, S::Pair::both(row)).store_rows(&mut g, &mut h);
+        S::Pair::all(0.0).times_plus(pair, S::Pair::both(row)).store_rows(&mut g, &mut h);
         pair.sum().store(&mut sum);
         [a, b, c, d, e, f, g, h, sum]
+    }
+}
+
+/// The operations with which pairs of rows are decoded.
+struct DecodedRows<'a> {
+    bytes: &'a [u8],
+    lanes: &'a [[u8; 8]; 2],
+    masks: &'a [[u32; 8]; 2],
+    factors: &'a [[u16; 8]; 2],
+    addends: &'a [[f32; 8]; 2],
+}
+
+impl Kernel for DecodedRows<'_> {
+    type Output = [[[f32; 8]; 2]; 3];
+
+    #[inline(always)]
+    fn run<S: Simd>(self) -> Self::Output {
+        let Self { bytes, lanes, masks, factors, addends } = self;
+        let mut out = [[[0.0; 8]; 2]; 3];
+        let [[a, b], [c, d], [e, f]] = &mut out;
+        // The second position is past the last one from which 32 bytes can be read.
+        let words = S::Pair::near(bytes, [3, 70], [13, 200], lanes);
+        let numbers = S::Pair::masked(words, masks);
+        let addends = S::Pair::load(addends);
+        numbers.times_plus(S::Pair::from_high_bits(factors), addends).store_rows(a, b);
+        addends.times_from(addends, S::Pair::all(9.0)).larger(S::Pair::all(0.0)).root().store_rows(c, d);
+        let [first, second] = addends.rows();
+        let no = S::Pair::all(if addends.any_less(S::Pair::all(-4.0)) { 1.0 } else { 2.0 });
+        (S::Pair::of([second, first]) + no).store_rows(e, f);
+        out
+    }
+}
+
+#[test]
+fn a_pair_of_rows_is_decoded_as_single_rows_are() {
+    let bytes: Vec<u8> = (0..80_u32).map(|byte| (byte * 37 % 256) as u8).collect();
+    let lanes = [[0, 2, 3, 12, 0, 1, 7, 12], [1, 5, 9, 12, 2, 128, 10, 4]];
+    let masks = [[0xff, 0x3ff0, 0x7f_0000, 0, 0x7fff_0000, 1, 0xff00, 0xfff], [0xf0; 8]];
+    let factors = [[0x3f80, 0x4000, 0x3f00, 0x3f80, 0x3780, 0x3f80, 0x3e80, 0x4080], [0x3f80; 8]];
+    let addends = [[1.0, -2.0, 3.0, 4.0, -0.5, 2.5, 0.0, 1.5], [-4.5, 2.0, -3.0, 1.0, 0.25, 2.0, -1.0, 0.5]];
+    let word = |row: usize, lane: usize| -> u32 {
+        // As the documentation of `Word8::near` has it: the last 32 bytes begin at 48; 200 % 16 is 8.
+        let first = [3, 48][row] + if lane < 4 { 0 } else { [13, 8][row] };
+        let byte = |step: usize| match usize::from(lanes[row][lane]) + step {
+            offset if offset < 128 => u32::from(bytes[first + offset % 16]),
+            _ => 0,
+        };
+        byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24
+    };
+    let expected = [0, 1].map(|row| {
+        std::array::from_fn::<f32, 8, _>(|lane| {
+            let word = word(row, lane);
+            let factor = f32::from_bits(u32::from(factors[row][lane]) << 16);
+            // Exact, so that it does not matter how often it is rounded.
+            ((word & masks[row][lane]) as i32 as f32).mul_add(factor, addends[row][lane])
+        })
+    });
+    let root = |row: [f32; 8]| row.map(|number| (9.0 - number * number).max(0.0).sqrt());
+    let more = |row: [f32; 8]| row.map(|number| number + 1.0);
+    for level in SimdLevel::all() {
+        let got = level.run(DecodedRows {
+            bytes: &bytes,
+            lanes: &lanes,
+            masks: &masks,
+            factors: &factors,
+            addends: &addends,
+        });
+        assert_eq!(got[0], expected, "{}", level.name());
+        assert_eq!(got[1], addends.map(root), "{}", level.name());
+        assert_eq!(got[2], [more(addends[1]), more(addends[0])], "{}", level.name());
     }
 }
 

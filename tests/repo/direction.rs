@@ -187,6 +187,7 @@ const UNSAFE: &[(&str, &str)] = &[
     ("anim/src/fast/simd/apart.rs", "sixteen places in a slice are checked once, not one by one"),
     ("anim/src/fast/simd/avx2.rs", "instructions beyond the target's own can be had in no other way"),
     ("anim/src/fast/simd/avx512.rs", "as for avx2.rs"),
+    ("anim/src/fast/simd/sixteen.rs", "as for avx2.rs"),
     ("editor/picture/src/x11.rs", "a driver takes a connection and a window as pointer and number"),
     ("tests/kit/src/counting.rs", "an allocator that counts is an unsafe trait by definition"),
     ("tests/runtime/models.rs", "the races planted there must be found, and safe code cannot have any"),

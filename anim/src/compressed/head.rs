@@ -23,7 +23,6 @@ const WIDE: u8 = u8::MAX;
 
 /// Positions and scales of the numbers of eight lanes in a key.
 #[derive(Clone, Debug)]
-#[repr(C)]
 pub(super) struct HeadBlock {
     pub(super) start: [[f32; LANES]; 3],
     /// Ones at the bits of a component's number in its word.
@@ -36,6 +35,49 @@ pub(super) struct HeadBlock {
     pub(super) at: u32,
     /// Bytes from there to the first word of lanes 4..8, at most 15; or [`WIDE`].
     pub(super) second: u8,
+}
+
+/// Two blocks in the layout of memory: of each row the numbers of both, so that a wide register loads them at once.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(super) struct HeadPair {
+    pub(super) start: [[[f32; LANES]; 2]; 3],
+    pub(super) masks: [[[u32; LANES]; 2]; 3],
+    pub(super) step: [[[u16; LANES]; 2]; 3],
+    pub(super) words: [[[u8; LANES]; 2]; 2],
+    pub(super) at: [u32; 2],
+    pub(super) second: [u8; 2],
+}
+
+impl HeadPair {
+    pub(super) fn new([a, b]: [&HeadBlock; 2]) -> Self {
+        Self {
+            start: std::array::from_fn(|axis| [a.start[axis], b.start[axis]]),
+            masks: std::array::from_fn(|axis| [a.masks[axis], b.masks[axis]]),
+            step: std::array::from_fn(|axis| [a.step[axis], b.step[axis]]),
+            words: std::array::from_fn(|word| [a.words[word], b.words[word]]),
+            at: [a.at, b.at],
+            second: [a.second, b.second],
+        }
+    }
+
+    /// Returns one of the blocks.
+    pub(super) fn block(&self, half: usize) -> HeadBlock {
+        HeadBlock {
+            start: self.start.map(|rows| rows[half % 2]),
+            masks: self.masks.map(|rows| rows[half % 2]),
+            step: self.step.map(|rows| rows[half % 2]),
+            words: self.words.map(|rows| rows[half % 2]),
+            at: self.at[half % 2],
+            second: self.second[half % 2],
+        }
+    }
+
+    /// Returns whether the numbers of the lanes of a block are read from a [`WideBlock`].
+    #[inline(always)]
+    pub(super) fn is_wide(&self, half: usize) -> bool {
+        self.second[half % 2] == WIDE
+    }
 }
 
 /// Bits from the start of the key to each number, for lanes whose numbers are too wide for a [`HeadBlock`].
@@ -87,14 +129,8 @@ impl HeadBlock {
     /// Creates a block of `lanes`, which are in the order of their bits, except that lanes without numbers may be
     /// anywhere.
     pub(super) fn new(lanes: &[LaneLayout; LANES], wide: &mut Vec<WideBlock>) -> Self {
-        let mut block = Self {
-            start: [0, 1, 2].map(|axis| lanes.map(|lane| lane.start[axis])),
-            masks: [[0; LANES]; 3],
-            step: [[0; LANES]; 3],
-            words: [[0; LANES]; 2],
-            at: 0,
-            second: 0,
-        };
+        let start = [0, 1, 2].map(|axis| lanes.map(|lane| lane.start[axis]));
+        let mut block = Self { start, ..Self::NONE };
         let halves = [&lanes[..4], &lanes[4..]].map(|half| {
             let mut lanes = half.iter().filter(|lane| lane.has_numbers());
             let first = lanes.next()?;
@@ -135,9 +171,18 @@ impl HeadBlock {
         }
     }
 
+    /// A block of lanes without numbers.
+    pub(super) const NONE: Self = Self {
+        start: [[0.0; LANES]; 3],
+        masks: [[0; LANES]; 3],
+        step: [[0; LANES]; 3],
+        words: [[0; LANES]; 2],
+        at: 0,
+        second: 0,
+    };
+
     /// Returns whether the numbers of the lanes are read from a [`WideBlock`].
-    #[inline(always)]
-    pub(super) fn is_wide(&self) -> bool {
+    fn is_wide(&self) -> bool {
         self.second == WIDE
     }
 
@@ -198,6 +243,14 @@ mod tests {
             });
             let block = HeadBlock::new(&lanes, &mut wide);
             assert!(block.is_wide() == (block.second > 15));
+            let pair = HeadPair::new(if round % 4 < 2 {
+                [&block, &HeadBlock::NONE]
+            } else {
+                [&HeadBlock::NONE, &block]
+            });
+            let half = usize::from(round % 4 >= 2);
+            assert_eq!(pair.is_wide(half), block.is_wide());
+            let block = pair.block(half);
             for (index, lane) in lanes.iter().enumerate() {
                 let back = block.lane(index, &wide);
                 let bit = if lane.widths == [0; 3] { back.bit } else { lane.bit };

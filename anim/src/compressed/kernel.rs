@@ -1,4 +1,5 @@
-//! Decoding of a pose from two keys: eight bones at once, and independent of the time decoded before.
+//! Decoding of a pose from two keys: eight bones at once, or sixteen where registers are that wide; and independent of
+//! the time decoded before.
 //!
 //! Each number of each lane is masked out of its word and gives the component
 //!
@@ -8,11 +9,12 @@
 //!
 //! Vectors are then interpolated; rotations get their w restored and are slerped with the weights of [`Slerp`].
 
-use super::head::{HeadBlock, WideBlock};
+use super::head::{HeadPair, WideBlock};
+use super::lane_groups::LaneGroup;
 use super::slerp::Slerp;
-use super::table::{Tables, Turning};
+use super::table::{ReferencePair, Tables};
 use crate::fast::PoseBlock;
-use crate::fast::simd::{Float8, Kernel, LANES, Simd, Word8};
+use crate::fast::simd::{Arithmetic, Float8, Kernel, LANES, RowPair, Rows, Simd, Word8};
 
 /// Applies an expression to each of three components. An array's `map` would be shorter, but its closure is not
 /// compiled with the instructions of the SIMD level.
@@ -109,88 +111,171 @@ impl<'a> KeyPair<'a> {
         let slerp = Slerp::at(self.mix);
         let here = tables.heads_of(self.segments[0]);
         let there = if ONE { here } else { tables.heads_of(self.segments[1]) };
-        let (mut here, mut there) = (here.iter(), there.iter());
-        for Turning { reference, group } in &tables.turning {
-            let Some([a, b]) = self.two::<S, ONE>(&mut here, &mut there) else { return };
-            let rotation = rotation::<S>(reference, a, b, &slerp);
-            if let Some(block) = group.block {
-                if let Some(out) = out.get_mut(block as usize) {
-                    S::F8::store_four(rotation, &mut out.rotation);
-                }
-                continue;
+        let pair = |index: usize| -> Option<[&HeadPair; 2]> {
+            let pair = here.get(index)?;
+            Some([pair, if ONE { pair } else { there.get(index)? }])
+        };
+        // Two groups in one register, where there is one that wide.
+        let paired = if S::Rows::IS_ONE_REGISTER { tables.turning.len() / 2 } else { 0 };
+        let (groups, others) = tables.turning.split_at(2 * paired);
+        for ((index, groups), reference) in
+            groups.as_chunks::<2>().0.iter().enumerate().zip(&tables.references)
+        {
+            let Some(heads) = pair(index) else { return };
+            let [a, b] = if heads.iter().any(|head| head.is_wide(0) || head.is_wide(1)) {
+                [self.turned::<S, 0>(reference, heads, &slerp), self.turned::<S, 1>(reference, heads, &slerp)]
+            } else {
+                self.two_turned::<S>(reference, heads, &slerp)
+            };
+            put_rotations::<S>(&groups[0], a, out);
+            put_rotations::<S>(&groups[1], b, out);
+        }
+        for (index, groups) in (paired..).zip(others.chunks(2)) {
+            let (Some(heads), Some(reference)) = (pair(index), tables.references.get(index)) else { return };
+            if let Some(group) = groups.first() {
+                put_rotations::<S>(group, self.turned::<S, 0>(reference, heads, &slerp), out);
             }
-            for shared in &group.shared {
-                if let Some(out) = out.get_mut(shared.block as usize) {
-                    let picked = picked::<S, 4>(rotation, &shared.lanes, S::F8::load_four(&out.rotation));
-                    S::F8::store_four(picked, &mut out.rotation);
-                }
+            if let Some(group) = groups.get(1) {
+                put_rotations::<S>(group, self.turned::<S, 1>(reference, heads, &slerp), out);
             }
         }
         let (from, to) = (S::F8::splat(1.0 - self.mix), S::F8::splat(self.mix));
+        let mut next = tables.turning.len();
         for (part, groups) in tables.moving.iter().enumerate() {
             for group in groups {
-                let Some([a, b]) = self.two::<S, ONE>(&mut here, &mut there) else { return };
+                let Some(heads) = pair(next / 2) else { return };
+                let [a, b] = if next % 2 == 0 { self.keys::<S, 0>(heads) } else { self.keys::<S, 1>(heads) };
+                next += 1;
                 let vector = three!(axis => b[axis].mul_add(to, a[axis] * from));
-                if let Some(block) = group.block {
-                    if let Some(out) = out.get_mut(block as usize) {
-                        S::F8::store_three(vector, vectors(out, part));
-                    }
-                    continue;
-                }
-                for shared in &group.shared {
-                    if let Some(out) = out.get_mut(shared.block as usize) {
-                        let rows = vectors(out, part);
-                        let picked = picked::<S, 3>(vector, &shared.lanes, S::F8::load_three(rows));
-                        S::F8::store_three(picked, rows);
-                    }
-                }
+                put_vectors::<S>(group, vector, part, out);
             }
         }
     }
 
-    /// Decodes the components of the two keys, and advances the iterators.
+    /// Decodes the rotations of group `HALF` of a pair, from its heads in the segment of each key.
     #[inline(always)]
-    fn two<'t, S: Simd, const ONE: bool>(
+    fn turned<S: Simd, const HALF: usize>(
         &self,
-        here: &mut impl Iterator<Item = &'t HeadBlock>,
-        there: &mut impl Iterator<Item = &'t HeadBlock>,
-    ) -> Option<[[S::F8; 3]; 2]> {
-        let head = here.next()?;
-        let next = if ONE { head } else { there.next()? };
-        Some([self.key::<S>(self.rows[0], head), self.key::<S>(self.rows[1], next)])
+        reference: &ReferencePair,
+        heads: [&HeadPair; 2],
+        slerp: &Slerp,
+    ) -> [S::F8; 4] {
+        let [a, b] = self.keys::<S, HALF>(heads);
+        let ([x, y, z, w], half) = (&reference.rows, HALF % 2);
+        let reference =
+            [S::F8::load(&x[half]), S::F8::load(&y[half]), S::F8::load(&z[half]), S::F8::load(&w[half])];
+        relative_to(reference, slerp.mix::<S>(with_w(a), with_w(b)))
     }
 
-    /// Decodes the components of the key whose first byte is `row`.
+    /// Decodes the rotations of two groups, of which none is wide.
     #[inline(always)]
-    fn key<S: Simd>(&self, row: u32, head: &HeadBlock) -> [S::F8; 3] {
-        if head.is_wide() {
-            return self.wide_key::<S>(row, head);
+    fn two_turned<S: Simd>(
+        &self,
+        reference: &ReferencePair,
+        heads: [&HeadPair; 2],
+        slerp: &Slerp,
+    ) -> [[S::F8; 4]; 2] {
+        let (a, b) =
+            (self.two_groups::<S>(self.rows[0], heads[0]), self.two_groups::<S>(self.rows[1], heads[1]));
+        let [x, y, z, w] = &reference.rows;
+        let reference = [S::Pair::load(x), S::Pair::load(y), S::Pair::load(z), S::Pair::load(w)];
+        let [x, y, z, w] = relative_to(reference, slerp.mix_two::<S>(with_w(a), with_w(b)));
+        let ([x, p], [y, q], [z, r], [w, s]) = (x.rows(), y.rows(), z.rows(), w.rows());
+        [[x, y, z, w], [p, q, r, s]]
+    }
+
+    /// Decodes the components of group `HALF` of a pair at the two keys.
+    #[inline(always)]
+    fn keys<S: Simd, const HALF: usize>(&self, heads: [&HeadPair; 2]) -> [[S::F8; 3]; 2] {
+        [self.key::<S, HALF>(self.rows[0], heads[0]), self.key::<S, HALF>(self.rows[1], heads[1])]
+    }
+
+    /// Decodes the components of two groups at the key whose first byte is `row`.
+    #[inline(always)]
+    fn two_groups<S: Simd>(&self, row: u32, heads: &HeadPair) -> [S::Pair; 3] {
+        let at = [row.wrapping_add(heads.at[0]) as usize, row.wrapping_add(heads.at[1]) as usize];
+        let first = S::Pair::near(self.bytes, at, heads.second, &heads.words[0]);
+        let second = S::Pair::near(self.bytes, at, heads.second, &heads.words[1]);
+        let words = [first, first, second];
+        three!(axis => {
+            let number = S::Pair::masked(words[axis], &heads.masks[axis]);
+            let step = S::Pair::from_high_bits(&heads.step[axis]);
+            number.times_plus(step, S::Pair::load(&heads.start[axis]))
+        })
+    }
+
+    /// Decodes the components of group `HALF` of a pair at the key whose first byte is `row`.
+    #[inline(always)]
+    fn key<S: Simd, const HALF: usize>(&self, row: u32, heads: &HeadPair) -> [S::F8; 3] {
+        let half = HALF % 2;
+        if heads.is_wide(half) {
+            return self.wide_key::<S, HALF>(row, heads);
         }
-        let at = row.wrapping_add(head.at) as usize;
-        let first = S::U8::near(self.bytes, at, head.second, &head.words[0]);
-        let second = S::U8::near(self.bytes, at, head.second, &head.words[1]);
-        [value::<S>(first, head, 0), value::<S>(first, head, 1), value::<S>(second, head, 2)]
+        let (at, second) = (row.wrapping_add(heads.at[half]) as usize, heads.second[half]);
+        let first = S::U8::near(self.bytes, at, second, &heads.words[0][half]);
+        let second = S::U8::near(self.bytes, at, second, &heads.words[1][half]);
+        [
+            value::<S, HALF>(first, heads, 0),
+            value::<S, HALF>(first, heads, 1),
+            value::<S, HALF>(second, heads, 2),
+        ]
     }
 
     /// As [`Self::key`], for lanes of which not all numbers are in one word.
     #[inline(always)]
-    fn wide_key<S: Simd>(&self, row: u32, head: &HeadBlock) -> [S::F8; 3] {
+    fn wide_key<S: Simd, const HALF: usize>(&self, row: u32, heads: &HeadPair) -> [S::F8; 3] {
         let none = WideBlock { bits: [[0; LANES]; 3] };
-        let wide = self.wide.get(head.at as usize).unwrap_or(&none);
+        let wide = self.wide.get(heads.at[HALF % 2] as usize).unwrap_or(&none);
         three!(axis => {
             let bits = S::U8::load(&wide.bits[axis]);
             let at = S::U8::splat(row) + bits.shifted_right(S::U8::splat(3));
-            value::<S>(S::U8::gather(self.bytes, at), head, axis)
+            value::<S, HALF>(S::U8::gather(self.bytes, at), heads, axis)
         })
     }
 }
 
-/// Returns the component whose number is in `word`.
+/// Returns the component whose number is in `word`, of group `HALF` of a pair.
 #[inline(always)]
-fn value<S: Simd>(word: S::U8, head: &HeadBlock, axis: usize) -> S::F8 {
-    let number = word & S::U8::load(&head.masks[axis]);
-    let step = S::U8::from_u16(&head.step[axis]).shifted_left(S::U8::splat(16)).as_float();
-    number.to_float().mul_add(step, S::F8::load(&head.start[axis]))
+fn value<S: Simd, const HALF: usize>(word: S::U8, heads: &HeadPair, axis: usize) -> S::F8 {
+    let half = HALF % 2;
+    let number = word & S::U8::load(&heads.masks[axis][half]);
+    let step = S::U8::from_u16(&heads.step[axis][half]).shifted_left(S::U8::splat(16)).as_float();
+    number.to_float().mul_add(step, S::F8::load(&heads.start[axis][half]))
+}
+
+/// Writes the rotations of a group.
+#[inline(always)]
+fn put_rotations<S: Simd>(group: &LaneGroup, rotation: [S::F8; 4], out: &mut [PoseBlock]) {
+    if let Some(block) = group.block {
+        if let Some(out) = out.get_mut(block as usize) {
+            S::F8::store_four(rotation, &mut out.rotation);
+        }
+        return;
+    }
+    for shared in &group.shared {
+        if let Some(out) = out.get_mut(shared.block as usize) {
+            let picked = picked::<S, 4>(rotation, &shared.lanes, S::F8::load_four(&out.rotation));
+            S::F8::store_four(picked, &mut out.rotation);
+        }
+    }
+}
+
+/// Writes the translations or scales of a group.
+#[inline(always)]
+fn put_vectors<S: Simd>(group: &LaneGroup, vector: [S::F8; 3], part: usize, out: &mut [PoseBlock]) {
+    if let Some(block) = group.block {
+        if let Some(out) = out.get_mut(block as usize) {
+            S::F8::store_three(vector, vectors(out, part));
+        }
+        return;
+    }
+    for shared in &group.shared {
+        if let Some(out) = out.get_mut(shared.block as usize) {
+            let rows = vectors(out, part);
+            let picked = picked::<S, 3>(vector, &shared.lanes, S::F8::load_three(rows));
+            S::F8::store_three(picked, rows);
+        }
+    }
 }
 
 /// Returns the translations or scales.
@@ -233,27 +318,20 @@ impl Kernel for Decode<'_> {
     }
 }
 
-/// Returns the rotation between those with components `a` and `b`, which are relative to `reference`.
+/// Returns the rotations that are `rotation` relative to `reference`.
 #[inline(always)]
-fn rotation<S: Simd>(
-    reference: &[[f32; LANES]; 4],
-    a: [S::F8; 3],
-    b: [S::F8; 3],
-    slerp: &Slerp,
-) -> [S::F8; 4] {
-    let [x, y, z, w] = slerp.mix::<S>(with_w::<S>(a), with_w::<S>(b));
-    let [p, q, r, s] = S::F8::load_four(reference);
+fn relative_to<A: Arithmetic>([p, q, r, s]: [A; 4], [x, y, z, w]: [A; 4]) -> [A; 4] {
     [
-        r.neg_mul_add(y, q.mul_add(z, p.mul_add(w, s * x))),
-        p.neg_mul_add(z, r.mul_add(x, q.mul_add(w, s * y))),
-        q.neg_mul_add(x, p.mul_add(y, r.mul_add(w, s * z))),
-        r.neg_mul_add(z, q.neg_mul_add(y, p.neg_mul_add(x, s * w))),
+        r.times_from(y, q.times_plus(z, p.times_plus(w, s * x))),
+        p.times_from(z, r.times_plus(x, q.times_plus(w, s * y))),
+        q.times_from(x, p.times_plus(y, r.times_plus(w, s * z))),
+        r.times_from(z, q.times_from(y, p.times_from(x, s * w))),
     ]
 }
 
 /// Appends the fourth component of unit quaternions, which is not negative.
 #[inline(always)]
-fn with_w<S: Simd>([x, y, z]: [S::F8; 3]) -> [S::F8; 4] {
-    let rest = z.neg_mul_add(z, y.neg_mul_add(y, x.neg_mul_add(x, S::F8::splat(1.0))));
-    [x, y, z, rest.max(S::F8::splat(0.0)).sqrt()]
+fn with_w<A: Arithmetic>([x, y, z]: [A; 3]) -> [A; 4] {
+    let rest = z.times_from(z, y.times_from(y, x.times_from(x, A::all(1.0))));
+    [x, y, z, rest.larger(A::all(0.0)).root()]
 }

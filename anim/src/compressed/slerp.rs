@@ -21,7 +21,7 @@
 //! alone and are computed once per pose; then each weight costs two multiply-adds for eight rotations at once. If any
 //! of eight pairs of rotations are farther apart, all eight use the longer series of [`SOME`] or [`MANY`] terms.
 
-use crate::fast::simd::{Float8, Simd};
+use crate::fast::simd::{Arithmetic, Float8, RowPair, Simd};
 
 /// Smallest `d` for which two terms are enough.
 const FAR: f32 = -0.03;
@@ -56,20 +56,33 @@ impl Slerp {
     /// Interpolates from `a` to `b` the short way; both of unit length.
     #[inline(always)]
     pub(super) fn mix<S: Simd>(&self, a: [S::F8; 4], b: [S::F8; 4]) -> [S::F8; 4] {
-        let minus = S::F8::splat(-1.0);
-        let d = a[3].mul_add(b[3], a[2].mul_add(b[2], a[1].mul_add(b[1], a[0].mul_add(b[0], minus))));
+        let d = cosine_less_one(a, b);
+        weighted(a, b, self.weights::<S>(d))
+    }
+
+    /// As [`Self::mix`], for two times eight rotations. Gives the same bits.
+    #[inline(always)]
+    pub(super) fn mix_two<S: Simd>(&self, a: [S::Pair; 4], b: [S::Pair; 4]) -> [S::Pair; 4] {
+        let d = cosine_less_one(a, b);
+        let weights = if d.any_less(S::Pair::all(FAR)) {
+            let [first, second] = d.rows();
+            let ([a, b], [c, d]) = (self.weights::<S>(first), self.weights::<S>(second));
+            [S::Pair::of([a, c]), S::Pair::of([b, d])]
+        } else {
+            [near(&self.from, d), near(&self.to, d)]
+        };
+        weighted(a, b, weights)
+    }
+
+    /// Returns the weights of the first rotation and of the second.
+    #[inline(always)]
+    fn weights<S: Simd>(&self, d: S::F8) -> [S::F8; 2] {
         // Also true where the dot product is negative, so that one rotation has to be negated.
-        let [from, to] = if d.less(S::F8::splat(FAR)).any() {
+        if d.any_less(S::F8::splat(FAR)) {
             self.far::<S>(d)
         } else {
-            [near::<S>(&self.from, d), near::<S>(&self.to, d)]
-        };
-        [
-            b[0].mul_add(to, a[0] * from),
-            b[1].mul_add(to, a[1] * from),
-            b[2].mul_add(to, a[2] * from),
-            b[3].mul_add(to, a[3] * from),
-        ]
+            [near(&self.from, d), near(&self.to, d)]
+        }
     }
 
     /// Returns the weights for any `cosine_less_one`.
@@ -95,10 +108,29 @@ fn factors(t: f32) -> [f32; 3] {
     [t, first, first * ((t * t - 4.0) * (1.0 / 10.0))]
 }
 
+/// Returns the dot products, less 1.
 #[inline(always)]
-fn near<S: Simd>(factors: &[f32; 3], d: S::F8) -> S::F8 {
-    let [t, first, second] = [S::F8::splat(factors[0]), S::F8::splat(factors[1]), S::F8::splat(factors[2])];
-    d.mul_add(d.mul_add(second, first), t)
+fn cosine_less_one<A: Arithmetic>(a: [A; 4], b: [A; 4]) -> A {
+    let minus = A::all(-1.0);
+    a[3].times_plus(b[3], a[2].times_plus(b[2], a[1].times_plus(b[1], a[0].times_plus(b[0], minus))))
+}
+
+/// Returns the weight for an angle that is not far.
+#[inline(always)]
+fn near<A: Arithmetic>(factors: &[f32; 3], d: A) -> A {
+    let [t, first, second] = [A::all(factors[0]), A::all(factors[1]), A::all(factors[2])];
+    d.times_plus(d.times_plus(second, first), t)
+}
+
+/// Returns `a * from + b * to`.
+#[inline(always)]
+fn weighted<A: Arithmetic>(a: [A; 4], b: [A; 4], [from, to]: [A; 2]) -> [A; 4] {
+    [
+        b[0].times_plus(to, a[0] * from),
+        b[1].times_plus(to, a[1] * from),
+        b[2].times_plus(to, a[2] * from),
+        b[3].times_plus(to, a[3] * from),
+    ]
 }
 
 #[cfg(test)]

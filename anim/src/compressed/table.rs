@@ -2,7 +2,7 @@
 
 use super::bits::BitReader;
 use super::clock::FrameClock;
-use super::head::{HeadBlock, LaneLayout, WideBlock};
+use super::head::{HeadBlock, HeadPair, LaneLayout, WideBlock};
 use super::lane_groups::{LaneGroup, TrackSlot, groups, slots};
 use super::stored::{PACKED, PARTS, Reference, SegmentHead, ValueRange, WHOLE, rotation_of};
 use super::whole::WholeTrack;
@@ -25,23 +25,24 @@ pub(super) struct Tables {
     pub(super) bones: usize,
     pub(super) still: Arc<StillPose>,
     /// Rotations that move.
-    pub(super) turning: Vec<Turning>,
+    pub(super) turning: Vec<LaneGroup>,
+    /// Rotations that those of each two groups are relative to.
+    pub(super) references: Vec<ReferencePair>,
     /// Translations and scales that move.
     pub(super) moving: [Vec<LaneGroup>; 2],
-    /// Segment after segment, one per group: of rotations, then translations, then scales.
-    heads: Vec<HeadBlock>,
+    /// Segment after segment, one for each two groups: of rotations, then translations, then scales.
+    heads: Vec<HeadPair>,
     pub(super) segments: Vec<SegmentPlace>,
     /// Positions of the numbers of groups that are too wide for a [`HeadBlock`].
     pub(super) wide: Vec<WideBlock>,
     pub(super) whole: Vec<WholeTrack>,
 }
 
-/// Eight rotations that move.
+/// The rotations that the components of two groups are relative to: of each row those of both.
 #[derive(Clone, Debug)]
-pub(super) struct Turning {
-    /// Rotations that the components are relative to.
-    pub(super) reference: [[f32; LANES]; 4],
-    pub(super) group: LaneGroup,
+#[repr(C, align(64))]
+pub(super) struct ReferencePair {
+    pub(super) rows: [[[f32; LANES]; 2]; 4],
 }
 
 /// Position of the keys of a segment, in bytes from the first key.
@@ -66,13 +67,16 @@ impl Tables {
             base[bone / LANES].set(bone, pose);
         }
         let [turning, translations, scales] = groups(kinds);
-        let reference = |group: &LaneGroup| match group.block {
+        let reference = |group: Option<&LaneGroup>| match group.and_then(|group| group.block) {
             Some(block) => base[block as usize].rotation,
             None => PoseBlock::IDENTITY.rotation,
         };
-        let turning: Vec<Turning> =
-            turning.into_iter().map(|group| Turning { reference: reference(&group), group }).collect();
-        let turns = |block: u32| turning.iter().any(|turning| turning.group.block == Some(block));
+        let references = turning.chunks(2).map(|pair| {
+            let (first, second) = (reference(pair.first()), reference(pair.get(1)));
+            ReferencePair { rows: std::array::from_fn(|row| [first[row], second[row]]) }
+        });
+        let references = references.collect();
+        let turns = |block: u32| turning.iter().any(|group| group.block == Some(block));
         let moves = |bone: usize| {
             kinds.get(bone).is_some_and(|kinds| kinds.iter().any(|&kind| kind == PACKED || kind == WHOLE))
         };
@@ -85,6 +89,7 @@ impl Tables {
             bones: poses.len(),
             still: Arc::new(StillPose::of_blocks(&base, moves, turns)),
             turning,
+            references,
             moving: [translations, scales],
             heads: Vec::new(),
             segments: Vec::new(),
@@ -98,8 +103,8 @@ impl Tables {
         let (block, mut pose) = (bone / LANES, PoseBlock::IDENTITY);
         pose.translation = self.still.translation(block);
         pose.scale = self.still.scale(block);
-        let turning = self.turning.iter().find(|turning| turning.group.block == Some(block as u32));
-        if let Some(rotation) = turning.map(|turning| turning.reference).or(self.still.rotation(block)) {
+        let turning = self.turning.iter().position(|group| group.block == Some(block as u32));
+        if let Some(rotation) = turning.map(|group| self.reference(group)).or(self.still.rotation(block)) {
             pose.rotation = rotation;
         }
         pose.get(bone)
@@ -108,27 +113,33 @@ impl Tables {
     /// Returns every packed track, in the order in which tracks are stored.
     pub(super) fn slots(&self) -> Vec<TrackSlot> {
         let [translations, scales] = &self.moving;
-        let turning = self.turning.iter().map(|turning| turning.group.clone()).collect();
-        slots(&[turning, translations.clone(), scales.clone()])
+        slots(&[self.turning.clone(), translations.clone(), scales.clone()])
     }
 
     /// Sets the rotation that the components of a track are relative to.
     pub(super) fn refer(&mut self, slot: &TrackSlot, reference: Reference) {
         let rotation = reference.rotation().to_array();
-        (0..4).for_each(|axis| self.turning[slot.group].reference[axis][slot.lane] = rotation[axis]);
+        let rows = &mut self.references[slot.group / 2].rows;
+        (0..4).for_each(|axis| rows[axis][slot.group % 2][slot.lane] = rotation[axis]);
     }
 
-    /// Returns the heads of all groups in a segment and in those after it; none past the end.
+    /// Returns the rotations that those of a group are relative to.
+    fn reference(&self, group: usize) -> [[f32; LANES]; 4] {
+        self.references[group / 2].rows.map(|pair| pair[group % 2])
+    }
+
+    /// Returns the heads of all groups in a segment and in those after it, in pairs; none past the end.
     #[inline(always)]
-    pub(super) fn heads_of(&self, segment: usize) -> &[HeadBlock] {
+    pub(super) fn heads_of(&self, segment: usize) -> &[HeadPair] {
         let count = self.turning.len() + self.moving[0].len() + self.moving[1].len();
-        self.heads.get(segment * count..).unwrap_or(&[])
+        self.heads.get(segment * count.div_ceil(2)..).unwrap_or(&[])
     }
 
     /// Returns the head of a track in a segment.
-    fn head(&self, slot: &TrackSlot, segment: usize) -> &HeadBlock {
+    fn head(&self, slot: &TrackSlot, segment: usize) -> HeadBlock {
         let before = [0, self.turning.len(), self.turning.len() + self.moving[0].len()];
-        &self.heads_of(segment)[before[slot.part] + slot.group]
+        let index = before[slot.part] + slot.group;
+        self.heads_of(segment)[index / 2].block(index % 2)
     }
 
     /// Adds a segment: the range and the head of every track. Returns the bits of one key.
@@ -137,6 +148,7 @@ impl Tables {
         let mut bit = 0;
         let counts = [self.turning.len(), self.moving[0].len(), self.moving[1].len()];
         let groups = (0..PARTS).flat_map(|part| (0..counts[part]).map(move |group| (part, group)));
+        let mut blocks = Vec::new();
         for (part, group) in groups {
             let mut lanes = self.still_lanes(part, group);
             while let Some(((slot, range), head)) =
@@ -145,8 +157,10 @@ impl Tables {
                 lanes[slot.lane] = LaneLayout::new(bit, range, head);
                 bit += head.width();
             }
-            self.heads.push(HeadBlock::new(&lanes, &mut self.wide));
+            blocks.push(HeadBlock::new(&lanes, &mut self.wide));
         }
+        let pair = |pair: &[HeadBlock]| HeadPair::new([&pair[0], pair.get(1).unwrap_or(&HeadBlock::NONE)]);
+        self.heads.extend(blocks.chunks(2).map(pair));
         bit
     }
 
@@ -162,13 +176,14 @@ impl Tables {
     }
 
     fn groups(&self) -> impl Iterator<Item = &LaneGroup> {
-        self.turning.iter().map(|turning| &turning.group).chain(self.moving.iter().flatten())
+        self.turning.iter().chain(self.moving.iter().flatten())
     }
 
     /// Returns the size of the tables in bytes.
     pub(super) fn bytes(&self) -> usize {
         self.still.bytes()
             + size_of_val(self.turning.as_slice())
+            + size_of_val(self.references.as_slice())
             + size_of_val(self.moving[0].as_slice())
             + size_of_val(self.moving[1].as_slice())
             + self.groups().map(|group| size_of_val(group.shared.as_slice())).sum::<usize>()
@@ -191,7 +206,7 @@ impl Tables {
             lane.start[axis] + lane.step[axis] * number as f32
         }));
         if slot.part == 0 {
-            let reference = &self.turning[slot.group].reference;
+            let reference = self.reference(slot.group);
             let reference = Quat::from_array([0, 1, 2, 3].map(|axis| reference[axis][slot.lane]));
             return rotation_of(reference, value).to_array();
         }

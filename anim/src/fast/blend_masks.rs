@@ -6,7 +6,7 @@
 use super::blend::{MOST, PoseLayer, WHOLE};
 use super::mask::{LaneMask, MaskBlock, usable};
 use super::pose::PoseBlock;
-use super::simd::{Float8, RowPair, Simd};
+use super::simd::{Arithmetic, Float8, RowPair, Simd};
 
 /// Sum of weights up to which a bone's shares need no division: more is not rounding.
 const MORE: f32 = 2.0 - WHOLE;
@@ -147,13 +147,13 @@ fn masked<S: Simd, const N: usize>(
     }
     let has_base = short.any();
     // One pass for rotations and one for vectors: both at once would need more registers than AVX2 has.
-    let nothing = [S::Pair::zero(); 2];
+    let nothing = [S::Pair::all(0.0); 2];
     let mut rotation = if has_base { turned::<S>(base, base_weight, leader, nothing) } else { nothing };
     for (weight, (pose, ..)) in weights.iter().zip(&parts) {
         rotation = turned::<S>(pose, *weight, leader, rotation);
     }
     store_unit::<S>(rotation, out);
-    let nothing = [S::Pair::zero(); 3];
+    let nothing = [S::Pair::all(0.0); 3];
     let mut vectors = if has_base { straight::<S>(base, base_weight, nothing) } else { nothing };
     for (weight, (pose, ..)) in weights.iter().zip(&parts) {
         vectors = straight::<S>(pose, *weight, vectors);
@@ -177,15 +177,15 @@ fn turned<S: Simd>(
     sum: [S::Pair; 2],
 ) -> [S::Pair; 2] {
     let [xy, zw] = turn::<S>(pose);
-    let cosine = zw.mul_add(cd, xy * ab).sum();
+    let cosine = zw.times_plus(cd, xy * ab).sum();
     let share = S::Pair::both(share.flipped_by(cosine.sign()));
-    [xy.mul_add(share, sum[0]), zw.mul_add(share, sum[1])]
+    [xy.times_plus(share, sum[0]), zw.times_plus(share, sum[1])]
 }
 
 /// Stores rotations, divided by their length.
 #[inline(always)]
 fn store_unit<S: Simd>([xy, zw]: [S::Pair; 2], out: &mut PoseBlock) {
-    let square = zw.mul_add(zw, xy * xy).sum();
+    let square = zw.times_plus(zw, xy * xy).sum();
     let shrink = S::Pair::both(S::F8::splat(1.0) / square.sqrt());
     let [x, y, z, w] = &mut out.rotation;
     (xy * shrink).store_rows(x, y);
@@ -198,7 +198,7 @@ fn straight<S: Simd>(pose: &PoseBlock, share: S::F8, sum: [S::Pair; 3]) -> [S::P
     let share = S::Pair::both(share);
     let ([x, y, z], [a, b, c]) = (&pose.translation, &pose.scale);
     let [xy, za, bc] = [S::Pair::from_rows(x, y), S::Pair::from_rows(z, a), S::Pair::from_rows(b, c)];
-    [xy.mul_add(share, sum[0]), za.mul_add(share, sum[1]), bc.mul_add(share, sum[2])]
+    [xy.times_plus(share, sum[0]), za.times_plus(share, sum[1]), bc.times_plus(share, sum[2])]
 }
 
 /// Stores translations and scales.
@@ -250,8 +250,8 @@ fn one_by_one<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [Pose
             most = weight.max(most);
         }
         let start = if short.any() { base_weight * total } else { zero };
-        let mut rotation = turned::<S>(base, start, leader, [S::Pair::zero(); 2]);
-        let mut vectors = straight::<S>(base, start, [S::Pair::zero(); 3]);
+        let mut rotation = turned::<S>(base, start, leader, [S::Pair::all(0.0); 2]);
+        let mut vectors = straight::<S>(base, start, [S::Pair::all(0.0); 3]);
         for layer in layers {
             if let Some(pose) = layer.pose.get(block) {
                 let share = weights::<S>(layer, block) * total;

@@ -56,13 +56,18 @@ impl<'a> ImportContext<'a> {
 
     /// Returns an empty vector with capacity for `count` values, charged to the budget.
     pub fn vec<T>(&self, place: &Place, count: usize) -> Result<Vec<T>, ImportError> {
+        self.vec_at(|| place.clone(), count)
+    }
+
+    /// As [`Self::vec`], with a place that is computed only for an error: lines are slow to count.
+    pub(super) fn vec_at<T>(&self, place: impl Fn() -> Place, count: usize) -> Result<Vec<T>, ImportError> {
         let bytes = (count as u64).saturating_mul(size_of::<T>() as u64);
-        self.charge(place, bytes)?;
+        self.charge_at(&place, bytes)?;
         let mut vec = Vec::new();
         match vec.try_reserve_exact(count) {
             Ok(()) => Ok(vec),
             Err(_) => {
-                Err(too_large(place, OverBudget { needed: bytes, limit: self.options.budget.remaining() }))
+                Err(too_large(&place(), OverBudget { needed: bytes, limit: self.options.budget.remaining() }))
             }
         }
     }
@@ -78,6 +83,12 @@ impl<'a> ImportContext<'a> {
     /// Charges memory that the caller is about to allocate.
     pub fn charge(&self, place: &Place, bytes: u64) -> Result<(), ImportError> {
         self.options.budget.charge(bytes).map_err(|over| too_large(place, over))
+    }
+
+    /// As [`Self::charge`], with a place that is computed only for an error.
+    #[inline]
+    pub(super) fn charge_at(&self, place: impl FnOnce() -> Place, bytes: u64) -> Result<(), ImportError> {
+        self.options.budget.charge(bytes).map_err(|over| too_large(&place(), over))
     }
 
     /// Returns the number of bytes that can still be charged.

@@ -41,6 +41,7 @@ pub mod bvh;
 mod context;
 mod convention;
 mod curves;
+mod decimal;
 mod definition;
 pub mod dfm;
 mod edited;

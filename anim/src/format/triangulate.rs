@@ -39,9 +39,14 @@ impl Triangulator {
         Self { steps, points: Vec::new(), next: Vec::new(), previous: Vec::new(), reflex: Vec::new() }
     }
 
-    /// Calls `triangle` with three numbers of corners for each triangle, in the sense of the polygon.
-    pub(super) fn divide(&mut self, corners: &[Vec3], mut triangle: impl FnMut([u32; 3])) -> Division {
-        let normal = normal(corners);
+    /// Calls `triangle` with three numbers of corners for each triangle, in the sense of the polygon. `normal` is that of
+    /// the polygon, from [`normal`].
+    pub(super) fn divide(
+        &mut self,
+        corners: &[Vec3],
+        normal: DVec3,
+        mut triangle: impl FnMut([u32; 3]),
+    ) -> Division {
         let area = normal.length();
         if corners.len() < 3 || area == 0.0 || !area.is_finite() {
             return Division::Degenerate;
@@ -180,10 +185,16 @@ impl Triangulator {
 
 /// Returns the normal of a polygon, as long as twice its area (Newell's method).
 pub(super) fn normal(corners: &[Vec3]) -> DVec3 {
-    let Some(first) = corners.first() else { return DVec3::ZERO };
+    let [first, second, others @ ..] = corners else { return DVec3::ZERO };
     // Relative to a corner: far from the origin nothing is lost.
-    let at = |index: usize| corners[index % corners.len()].as_dvec3() - first.as_dvec3();
-    (1..corners.len()).map(|index| at(index).cross(at(index + 1))).sum()
+    let edge = |corner: &Vec3| corner.as_dvec3() - first.as_dvec3();
+    let (mut sum, mut before) = (DVec3::ZERO, edge(second));
+    for corner in others {
+        let next = edge(corner);
+        sum += before.cross(next);
+        before = next;
+    }
+    sum + before.cross(edge(first))
 }
 
 #[cfg(test)]
@@ -193,7 +204,8 @@ mod tests {
     fn divided(points: &[(f32, f32)]) -> (Division, Vec<[u32; 3]>, f64) {
         let corners: Vec<Vec3> = points.iter().map(|&(x, y)| Vec3::new(x, 0.5 * x, y)).collect();
         let mut triangles = Vec::new();
-        let division = Triangulator::new(corners.len()).divide(&corners, |triangle| triangles.push(triangle));
+        let division = Triangulator::new(corners.len())
+            .divide(&corners, normal(&corners), |triangle| triangles.push(triangle));
         let area = |triangle: &[u32; 3]| {
             let corners = triangle.map(|corner| corners[corner as usize]);
             normal(&corners).dot(normal(&corners)).sqrt()

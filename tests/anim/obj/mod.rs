@@ -2,6 +2,7 @@
 
 mod agreement;
 mod damage;
+mod forms;
 mod import;
 mod materials;
 mod write;

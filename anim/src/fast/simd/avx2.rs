@@ -71,8 +71,8 @@ pub(super) struct U8(pub(super) __m256i);
 /// An instruction on registers and constants only.
 macro_rules! instruction {
     ($instruction:expr) => {
-        // SAFETY: the types of this file, and of `avx512.rs`, can only be used where the processor has the features, see
-        // the top of both.
+        // SAFETY: the types of this file, and of `avx512.rs` and `sixteen.rs`, can only be used where the processor has the
+        // features, see the top of each.
         unsafe { $instruction }
     };
 }

@@ -1,14 +1,14 @@
 //! The widest vectors of a level: one number of each of several characters.
 
+use super::arithmetic::Arithmetic;
 use super::vector::{Float8, LANES};
 use std::fmt::Debug;
-use std::ops::{Add, Mul};
 
 /// The largest number of lanes of [`Many`].
 pub const MOST_LANES: usize = 16;
 
 /// The `f32` of the widest register.
-pub trait Many: Copy + Debug + Add<Output = Self> + Mul<Output = Self> {
+pub trait Many: Arithmetic {
     /// The same numbers in memory.
     type Numbers: Copy + Debug;
     /// How many numbers, at most [`MOST_LANES`].
@@ -18,16 +18,10 @@ pub trait Many: Copy + Debug + Add<Output = Self> + Mul<Output = Self> {
     const ZEROS: Self::Numbers;
     /// Returns memory as numbers of these vectors; what is left at the end is not used.
     fn numbers_of(memory: &mut [f32]) -> &mut [Self::Numbers];
-    /// Returns the same number in all lanes.
-    fn all(value: f32) -> Self;
     /// Loads from memory, lane by lane.
     fn get(from: &Self::Numbers) -> Self;
     /// Stores to memory, lane by lane.
     fn put(self, to: &mut Self::Numbers);
-    /// Returns `self * factor + addend`, rounded once where the level has fused multiply-add.
-    fn times_plus(self, factor: Self, addend: Self) -> Self;
-    /// Returns `minuend - self * factor`, rounded once where the level has fused multiply-add.
-    fn times_from(self, factor: Self, minuend: Self) -> Self;
     /// Returns whether no number is NaN.
     fn is_number(self) -> bool;
     /// Transposes `rows`, of which the first [`Self::COUNT`] are used: number `k` of row `i` becomes number `i` of
@@ -51,11 +45,6 @@ impl<V: Float8> Many for V {
     }
 
     #[inline(always)]
-    fn all(value: f32) -> Self {
-        V::splat(value)
-    }
-
-    #[inline(always)]
     fn get(from: &[f32; LANES]) -> Self {
         V::load(from)
     }
@@ -63,16 +52,6 @@ impl<V: Float8> Many for V {
     #[inline(always)]
     fn put(self, to: &mut [f32; LANES]) {
         self.store(to);
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: Self, addend: Self) -> Self {
-        self.mul_add(factor, addend)
-    }
-
-    #[inline(always)]
-    fn times_from(self, factor: Self, minuend: Self) -> Self {
-        self.neg_mul_add(factor, minuend)
     }
 
     #[inline(always)]

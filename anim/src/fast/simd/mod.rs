@@ -31,7 +31,7 @@
 //!
 //! | level | available | a vector of eight is |
 //! |---|---|---|
-//! | `avx512` | x86-64 with AVX-512 (F, VL, BW, DQ) | half a register: matrices, pairs of rows and crowds use all of it |
+//! | `avx512` | x86-64 with AVX-512 (F, VL, BW, DQ) | half a register: matrices, pairs of rows or blocks and crowds use all of it |
 //! | `avx2` | x86-64 with AVX2 and FMA | one register |
 //! | `portable` | everywhere | an array, in loops that compilers vectorize for the target |
 //!
@@ -41,12 +41,13 @@
 //!
 //! # Safety
 //!
-//! The only files of the crate with `unsafe` code are `avx2.rs` and `avx512.rs`, called through the safe traits of this
-//! module, and `apart.rs`, a function. The types of the first two cannot be named outside; a kernel is only given them
-//! inside [`SimdLevel::run`], after the processor's features were detected.
+//! The only files of the crate with `unsafe` code are `avx2.rs`, `avx512.rs` and `sixteen.rs`, called through the safe
+//! traits of this module, and `apart.rs`, a function. The types of the first three cannot be named outside; a kernel is
+//! only given them inside [`SimdLevel::run`], after the processor's features were detected.
 
 #[allow(unsafe_code, reason = "one check in place of one for each of sixteen items")]
 mod apart;
+mod arithmetic;
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "instructions beyond the target's own can be had in no other way")]
 mod avx2;
@@ -58,8 +59,12 @@ mod many;
 mod pair;
 mod portable;
 mod rows;
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code, reason = "as for avx2")]
+mod sixteen;
 mod vector;
 
+pub use arithmetic::Arithmetic;
 pub use kernel::{Kernel, Simd};
 pub use many::{MOST_LANES, Many};
 pub(super) use many::{high, low};

@@ -2,7 +2,8 @@
 
 use super::check as code;
 use super::hierarchy::JointTable;
-use crate::format::text::{TextScanner, parse_number};
+use crate::format::decimal::parse_number;
+use crate::format::text::TextScanner;
 use crate::format::{Found, ImportContext, ImportError, Place};
 use crate::limits::{CANCEL_EVERY, CLIP_SECONDS, HUGE, KEYS, KEYS_PER_CHANNEL};
 use std::ops::Range;

@@ -80,7 +80,7 @@ fn influences(scanner: &mut M3dScanner<'_>, bones: usize) -> Result<([f32; 4], [
     let mut weights = [0.0; 4];
     for weight in &mut weights {
         let token = scanner.word("a weight")?;
-        let number = crate::format::text::parse_number(token.text);
+        let number = crate::format::decimal::parse_number(token.text);
         *weight = number.ok_or_else(|| {
             let reason = format!("{} is no number where a weight was expected", token.shown());
             scanner.invalid(token.at, crate::format::text::NUMBER_INVALID, reason)

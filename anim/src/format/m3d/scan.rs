@@ -1,7 +1,8 @@
 //! Labels and numbers, by their position in the text.
 
 use super::check as code;
-use crate::format::text::{Lexicon, TextScanner, TextToken, parse_number};
+use crate::format::decimal::parse_number;
+use crate::format::text::{Lexicon, TextScanner, TextToken};
 use crate::format::{ImportError, Place};
 use glam::Vec3;
 

@@ -3,7 +3,8 @@
 use super::check as code;
 use super::lines::{Statement, StatementReader, places};
 use crate::data::Mesh;
-use crate::format::text::{NUMBER_INVALID, TextScanner, TextToken, parse_whole};
+use crate::format::decimal::parse_whole;
+use crate::format::text::{NUMBER_INVALID, TextScanner, TextToken};
 use crate::format::{AxisMap, ImportContext, ImportError, Place};
 use crate::limits::VERTICES;
 use glam::{Vec2, Vec3, Vec4};
@@ -62,7 +63,13 @@ pub(super) fn parse(
     let places = places(bytes);
     let mut parser = FaceParser::new(&places, *axes, context);
     let mut reader = StatementReader::new(bytes);
-    while let Some(statement) = reader.next(context, &places)? {
+    loop {
+        if let Some(end) = parser.read_quickly(bytes, reader.at())? {
+            parser.is_known = true;
+            reader.go_to(end);
+            continue;
+        }
+        let Some(statement) = reader.next(context, &places)? else { break };
         context.work(1 + statement.values.len())?;
         parser.read(&statement)?;
         if !parser.is_known && statement.keyword.at > UNKNOWN_BYTES {
@@ -79,8 +86,9 @@ pub(super) fn parse(
 /// Number of bytes without any known statement after which a text is no OBJ file.
 const UNKNOWN_BYTES: usize = 1 << 16;
 
-struct FaceParser<'a> {
-    text: ObjText,
+/// Reads statements one after the other.
+pub(super) struct FaceParser<'a> {
+    pub(super) text: ObjText,
     places: &'a TextScanner<'a>,
     axes: AxisMap,
     context: &'a ImportContext<'a>,
@@ -166,68 +174,104 @@ impl<'a> FaceParser<'a> {
         Ok(numbers)
     }
 
+    pub(super) fn context(&self) -> &'a ImportContext<'a> {
+        self.context
+    }
+
     fn position(&mut self, statement: &Statement<'_, '_>) -> Result<(), ImportError> {
         let [x, y, z] = self.numbers(statement, 3, "a position")?;
-        let position = self.axes.position(Vec3::new(x, y, z));
-        if !position.is_finite() {
-            let reason = "the position is too large for its unit";
-            return Err(self.places.invalid(statement.keyword.at, NUMBER_INVALID, reason));
-        }
-        self.grown(self.text.positions.len(), size_of::<Vec3>(), statement)?;
+        self.add_position(Vec3::new(x, y, z), statement.keyword.at)?;
         // Four numbers are a position with a weight, six or more one with a color.
         if statement.values.len() >= 6 {
             let [_, _, _, r, g, b] = self.numbers(statement, 6, "a position with a color")?;
             let linear = |color: f32| linear_of(color.clamp(0.0, 1.0));
-            let missing = self.text.positions.len() + 1 - self.text.colors.len();
+            let missing = self.text.positions.len() - self.text.colors.len();
             self.context
                 .charge(&self.places.place(statement.keyword.at), (missing * 2 * size_of::<Vec4>()) as u64)?;
-            self.text.colors.resize(self.text.positions.len(), Vec4::ONE);
+            self.text.colors.resize(self.text.positions.len() - 1, Vec4::ONE);
             self.text.colors.push(Vec4::new(linear(r), linear(g), linear(b), 1.0));
         }
+        Ok(())
+    }
+
+    /// Adds a position of the statement at `at`.
+    pub(super) fn add_position(&mut self, position: Vec3, at: usize) -> Result<(), ImportError> {
+        let position = self.axes.position(position);
+        if !position.is_finite() {
+            return Err(self.places.invalid(at, NUMBER_INVALID, "the position is too large for its unit"));
+        }
+        self.grown(self.text.positions.len(), size_of::<Vec3>(), at)?;
         self.text.positions.push(position);
         Ok(())
     }
 
     fn texture_coordinate(&mut self, statement: &Statement<'_, '_>) -> Result<(), ImportError> {
         let [u, v] = self.numbers(statement, 1, "a texture coordinate")?;
-        self.grown(self.text.texture_coordinates.len(), size_of::<Vec2>(), statement)?;
+        self.add_texture_coordinate(Vec2::new(u, v), statement.keyword.at)
+    }
+
+    /// Adds a texture coordinate of the statement at `at`.
+    pub(super) fn add_texture_coordinate(&mut self, uv: Vec2, at: usize) -> Result<(), ImportError> {
+        self.grown(self.text.texture_coordinates.len(), size_of::<Vec2>(), at)?;
         // The origin is at the bottom of an image, in this library at its top.
-        self.text.texture_coordinates.push(Vec2::new(u, 1.0 - v));
+        self.text.texture_coordinates.push(Vec2::new(uv.x, 1.0 - uv.y));
         Ok(())
     }
 
     fn normal(&mut self, statement: &Statement<'_, '_>) -> Result<(), ImportError> {
         let [x, y, z] = self.numbers(statement, 3, "a normal")?;
-        self.grown(self.text.normals.len(), size_of::<Vec3>(), statement)?;
-        self.text.normals.push(self.axes.direction(Vec3::new(x, y, z)));
+        self.add_normal(Vec3::new(x, y, z), statement.keyword.at)
+    }
+
+    /// Adds a normal of the statement at `at`.
+    pub(super) fn add_normal(&mut self, normal: Vec3, at: usize) -> Result<(), ImportError> {
+        self.grown(self.text.normals.len(), size_of::<Vec3>(), at)?;
+        self.text.normals.push(self.axes.direction(normal));
         Ok(())
     }
 
     fn polygon(&mut self, statement: &Statement<'_, '_>) -> Result<(), ImportError> {
-        let part = self.part()?;
-        let first = self.text.corners.len();
-        self.grown(self.text.polygons.len(), size_of::<Polygon>(), statement)?;
+        let at = statement.keyword.at;
+        let first = self.begin_polygon(at)?;
         for &value in statement.values {
             let corner = self.corner(value)?;
-            self.grown(self.text.corners.len(), size_of::<Corner>(), statement)?;
-            self.text.corners.push(corner);
+            self.add_corner(corner, at)?;
         }
+        self.end_polygon(first, at);
+        Ok(())
+    }
+
+    /// Prepares the lists for a polygon of the statement at `at`. Returns its first corner.
+    pub(super) fn begin_polygon(&mut self, at: usize) -> Result<usize, ImportError> {
+        self.part()?;
+        self.grown(self.text.polygons.len(), size_of::<Polygon>(), at)?;
+        Ok(self.text.corners.len())
+    }
+
+    /// Adds a corner of the current polygon.
+    pub(super) fn add_corner(&mut self, corner: Corner, at: usize) -> Result<(), ImportError> {
+        self.grown(self.text.corners.len(), size_of::<Corner>(), at)?;
+        self.text.corners.push(corner);
+        Ok(())
+    }
+
+    /// Adds the polygon of the corners from `first` on.
+    pub(super) fn end_polygon(&mut self, first: usize, at: usize) {
         let count = self.text.corners.len() - first;
         if count < 3 {
             let text = format!("a polygon with {count} corners is left out");
-            self.context.warn(self.places.place(statement.keyword.at), code::POLYGON_DEGENERATE, text);
+            self.context.warn(self.places.place(at), code::POLYGON_DEGENERATE, text);
             self.text.corners.truncate(first);
-            return Ok(());
+            return;
         }
         self.text.polygons.push(Polygon {
             first: first as u32,
             count: count as u32,
-            part,
+            part: self.part.unwrap_or(0),
             material: self.material,
             smoothing: self.smoothing,
-            at: statement.keyword.at,
+            at,
         });
-        Ok(())
     }
 
     /// Reads `1`, `1/2`, `1//3` or `1/2/3`; numbers below zero count from the end.
@@ -303,15 +347,16 @@ impl<'a> FaceParser<'a> {
     }
 
     /// Charges a list before it grows.
-    fn grown(&self, length: usize, size: usize, statement: &Statement<'_, '_>) -> Result<(), ImportError> {
-        let place = || self.places.place(statement.keyword.at);
+    #[inline]
+    fn grown(&self, length: usize, size: usize, at: usize) -> Result<(), ImportError> {
+        let place = || self.places.place(at);
         if length >= VERTICES {
             let (size, limit) = (length as u64 + 1, VERTICES as u64);
             return Err(ImportError::TooLarge { place: place(), what: "elements", size, limit });
         }
         // A list doubles when it is full, and is copied then.
         if length.is_power_of_two() || length == 0 {
-            self.context.charge(&place(), (length.max(4) * 2 * size) as u64)?;
+            self.context.charge_at(place, (length.max(4) * 2 * size) as u64)?;
         }
         Ok(())
     }

@@ -70,6 +70,16 @@ impl<'a> StatementReader<'a> {
         Self { bytes, at: places(bytes).at(), values: Vec::new() }
     }
 
+    /// Returns the offset from which the next statement is searched.
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Continues at another offset.
+    pub(super) fn go_to(&mut self, at: usize) {
+        self.at = at;
+    }
+
     /// Returns the next statement; `None` at the end of the text.
     pub(super) fn next(
         &mut self,

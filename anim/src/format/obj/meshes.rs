@@ -3,29 +3,13 @@
 use super::check as code;
 use super::faces::{Corner, NONE, ObjText, Polygon};
 use super::lines::places;
+use super::vertices::{NormalKey, VertexFinder, VertexKey};
 use crate::data::{Mesh, Primitive};
 use crate::format::normals::unit;
 use crate::format::triangulate::{Division, Triangulator, normal};
 use crate::format::{AxisMap, ImportContext, ImportError, Place};
 use glam::{DVec3, Vec3, Vec4};
 use std::collections::HashMap;
-
-/// Normal of a vertex: one of the file, or computed.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum NormalKey {
-    /// Number of a normal of the file.
-    File(u32),
-    /// Of all polygons of a smoothing group at the position.
-    Smooth(u32),
-    /// Of one polygon.
-    Flat(u32),
-}
-
-/// Position, texture coordinate and normal of a vertex; corners that agree in all of them share it.
-type VertexKey = (u32, u32, NormalKey);
-
-/// Bytes of a vertex, of its place in the maps, and of copies while lists grow.
-const VERTEX_BYTES: u64 = 192;
 
 /// Returns the meshes, in the order of the file; those without triangles are left out.
 pub(super) fn meshes(
@@ -39,6 +23,7 @@ pub(super) fn meshes(
         context,
         triangulator: Triangulator::new(text.corners.len()),
         smooth: smooth_normals(text, context)?,
+        finder: VertexFinder::new(text.positions.len(), context)?,
         mirrors: axes.mirrors(),
         corners: Vec::new(),
         triangles: Vec::new(),
@@ -46,23 +31,27 @@ pub(super) fn meshes(
     };
     let mut meshes: Vec<Mesh> = context.vec(&Place::File, text.parts.len())?;
     meshes.extend(text.parts.iter().map(|name| Mesh { name: name.clone(), ..Mesh::default() }));
-    // The primitive of each mesh and material, and its vertices.
+    // The primitive of each mesh and material; polygons in a row mostly have the same.
     let mut known: HashMap<(u32, u32), usize> = HashMap::new();
-    let mut drafts: Vec<(u32, Primitive, HashMap<VertexKey, u32>)> = Vec::new();
+    let mut latest = None;
+    let mut drafts: Vec<(u32, Primitive)> = Vec::new();
     for (number, polygon) in text.polygons.iter().enumerate() {
         context.work(polygon.count as usize)?;
-        let next = drafts.len();
-        let draft = *known.entry((polygon.part, polygon.material)).or_insert(next);
+        let (next, owner) = (drafts.len(), (polygon.part, polygon.material));
+        let draft = match latest {
+            Some((latest, draft)) if latest == owner => draft,
+            Some(_) | None => *known.entry(owner).or_insert(next),
+        };
+        latest = Some((owner, draft));
         if draft == next {
             context.charge(&Place::File, 4 * size_of::<Primitive>() as u64)?;
             let material = (polygon.material != NONE).then_some(polygon.material);
-            drafts.push((polygon.part, Primitive { material, ..Primitive::default() }, HashMap::new()));
+            drafts.push((polygon.part, Primitive { material, ..Primitive::default() }));
         }
-        let (_, primitive, vertices) = &mut drafts[draft];
-        builder.add(number as u32, polygon, primitive, vertices)?;
+        builder.add(number as u32, polygon, draft as u32, &mut drafts[draft].1)?;
     }
     builder.warn(bytes);
-    for (part, mut primitive, _) in drafts {
+    for (part, mut primitive) in drafts {
         context.work(primitive.indices.len())?;
         if !primitive.indices.is_empty() {
             fill(&mut primitive);
@@ -79,6 +68,7 @@ struct MeshBuilder<'a> {
     triangulator: Triangulator,
     /// Sums of the normals of the polygons of a smoothing group at a position.
     smooth: HashMap<(u32, u32), DVec3>,
+    finder: VertexFinder,
     mirrors: bool,
     /// Positions of the corners of the current polygon.
     corners: Vec<Vec3>,
@@ -89,12 +79,13 @@ struct MeshBuilder<'a> {
 }
 
 impl MeshBuilder<'_> {
+    /// Adds the triangles of a polygon to its primitive, which is number `draft`.
     fn add(
         &mut self,
         number: u32,
         polygon: &Polygon,
+        draft: u32,
         primitive: &mut Primitive,
-        vertices: &mut HashMap<VertexKey, u32>,
     ) -> Result<(), ImportError> {
         let (text, context) = (self.text, self.context);
         let corners = &text.corners[polygon.first as usize..][..polygon.count as usize];
@@ -104,10 +95,10 @@ impl MeshBuilder<'_> {
             context.charge(&Place::File, (corners.len() * 128) as u64)?;
         }
         self.corners.extend(corners.iter().map(|corner| text.positions[corner[0] as usize]));
-        let flat = direction(normal(&self.corners), self.mirrors);
+        let across = normal(&self.corners);
         let mut triangles = std::mem::take(&mut self.triangles);
         triangles.clear();
-        let division = self.triangulator.divide(&self.corners, |triangle| triangles.push(triangle));
+        let division = self.triangulator.divide(&self.corners, across, |triangle| triangles.push(triangle));
         match division {
             Division::Exact => {}
             Division::Degenerate => count(&mut self.odd[0], polygon.at),
@@ -118,30 +109,29 @@ impl MeshBuilder<'_> {
             let [a, b, c] = if self.mirrors { [triangle[0], triangle[2], triangle[1]] } else { triangle };
             for corner in [a, b, c] {
                 let corner = corners[corner as usize];
-                let key = vertex_key(number, polygon, corner);
-                let index = match vertices.get(&key) {
-                    Some(&index) => index,
-                    None => {
-                        context.charge(&Place::File, VERTEX_BYTES)?;
-                        let index = primitive.vertices.len() as u32;
-                        let normal = match key.2 {
-                            NormalKey::File(normal) => unit(text.normals[normal as usize].as_dvec3()),
-                            NormalKey::Smooth(group) => self
-                                .smooth
-                                .get(&(corner[0], group))
-                                .and_then(|sum| direction(*sum, self.mirrors)),
-                            NormalKey::Flat(_) => flat,
-                        };
-                        push_vertex(primitive, text, corner, normal.or(flat).unwrap_or(Vec3::Y));
-                        vertices.insert(key, index);
-                        index
-                    }
-                };
+                let key = vertex_key(number, polygon, draft, corner);
+                let next = primitive.vertices.len() as u32;
+                let index = self.finder.number(key, next, context)?;
+                if index == next {
+                    let normal = self.normal_of(&key).or_else(|| direction(across, self.mirrors));
+                    push_vertex(primitive, text, corner, normal.unwrap_or(Vec3::Y));
+                }
                 primitive.indices.push(index);
             }
         }
         self.triangles = triangles;
         Ok(())
+    }
+
+    /// Returns the normal of a vertex; `None` for that of its polygon.
+    fn normal_of(&self, key: &VertexKey) -> Option<Vec3> {
+        match key.normal {
+            NormalKey::File(normal) => unit(self.text.normals[normal as usize].as_dvec3()),
+            NormalKey::Smooth(group) => {
+                self.smooth.get(&(key.position, group)).and_then(|sum| direction(*sum, self.mirrors))
+            }
+            NormalKey::Flat(_) => None,
+        }
     }
 
     /// Warns once of polygons without area, and once of others that are not covered exactly.
@@ -163,13 +153,14 @@ fn count(odd: &mut Option<(usize, usize)>, at: usize) {
     *odd = Some(odd.map_or((1, at), |(count, first)| (count + 1, first)));
 }
 
-fn vertex_key(number: u32, polygon: &Polygon, [position, texture, normal]: Corner) -> VertexKey {
+fn vertex_key(number: u32, polygon: &Polygon, primitive: u32, corner: Corner) -> VertexKey {
+    let [position, texture, normal] = corner;
     let normal = match (normal, polygon.smoothing) {
         (NONE, 0) => NormalKey::Flat(number),
         (NONE, group) => NormalKey::Smooth(group),
         (normal, _) => NormalKey::File(normal),
     };
-    (position, texture, normal)
+    VertexKey { primitive, position, texture, normal }
 }
 
 fn push_vertex(primitive: &mut Primitive, text: &ObjText, corner: Corner, normal: Vec3) {

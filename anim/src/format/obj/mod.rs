@@ -17,14 +17,15 @@ mod faces;
 mod lines;
 mod materials;
 mod meshes;
-
+mod quick;
+mod vertices;
 mod write;
 
 pub use write::write;
 
+use super::decimal::parse_number;
 use super::image::NeighborImages;
 use super::losses::avatar_lost;
-use super::text::parse_number;
 use super::{
     Conversion, ExportError, Format, Found, Handedness, ImportContext, ImportError, Place, SavePlan, UpAxis,
     Warning, WriteSupport,

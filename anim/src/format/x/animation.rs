@@ -108,11 +108,9 @@ pub(super) fn animation_set(
                 return Ok(set);
             }
             XToken::Word(b"Animation") => {
-                // Before the places in it: lines are counted from the last one.
-                let place = lexer.place(found.at);
                 let animation = animation(lexer, found, &mut keys, context)?;
                 let bytes = 4 * size_of::<XAnimation>() + 4 * animation.keys.capacity() * size_of::<XKeys>();
-                context.charge(&place, bytes as u64)?;
+                context.charge_at(|| lexer.place(found.at), bytes as u64)?;
                 set.animations.push(animation);
             }
             XToken::Word(_) => {
@@ -175,11 +173,10 @@ fn keys(
     context: &ImportContext<'_>,
 ) -> Result<Option<XKeys>, ImportError> {
     lexer.open()?;
-    let place = lexer.place(start.at);
     let number = lexer.whole("the type of keys", u32::MAX)?;
     let Some(kind) = XKeyKind::parse(number) else {
         let text = format!("keys of type {number} are left out");
-        context.warn(place, code::KEY_TYPE_UNKNOWN, text);
+        context.warn(lexer.place(start.at), code::KEY_TYPE_UNKNOWN, text);
         lexer.close(context)?;
         return Ok(None);
     };
@@ -187,22 +184,22 @@ fn keys(
     let count = lexer.count("the number of keys", kind.width() + 2)?;
     let count_place = lexer.last_of(before);
     *total += count;
+    let place = || lexer.place(start.at);
     if count > KEYS_PER_CHANNEL || *total > KEYS {
         let (size, limit) = (*total as u64, KEYS_PER_CHANNEL.min(KEYS) as u64);
-        return Err(ImportError::TooLarge { place, what: "keys", size, limit });
+        return Err(ImportError::TooLarge { place: place(), what: "keys", size, limit });
     }
     let mut keys = XKeys {
         kind,
         block: start.range(),
         count: count_place,
-        rows: context.vec(&place, count)?,
-        values: context.vec(&place, count * kind.width())?,
+        rows: context.vec_at(place, count)?,
+        values: context.vec_at(place, count * kind.width())?,
     };
     for _ in 0..count {
         context.work(kind.width())?;
-        let at = lexer.at();
+        let start = lexer.next_at();
         let ticks = lexer.number("the time of a key")?;
-        let start = lexer.last_of(at).start;
         let width = lexer.whole("the number of values", u32::MAX)? as usize;
         if width != kind.width() {
             let reason = format!("a key of type {} has {width} values, not {}", kind.number(), kind.width());

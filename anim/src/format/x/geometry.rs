@@ -5,7 +5,7 @@ use super::mesh::XMesh;
 use super::skin::XInfluences;
 use crate::data::{Primitive, Vertices};
 use crate::format::normals::{direction, normals};
-use crate::format::triangulate::{Division, Triangulator};
+use crate::format::triangulate::{Division, Triangulator, normal};
 use crate::format::{AxisMap, ImportContext, ImportError, Place};
 use glam::Vec3;
 use std::collections::BTreeMap;
@@ -74,7 +74,7 @@ fn triangles(
         corners.extend(mesh.faces.corners[range.clone()].iter().map(|&index| mesh.positions[index as usize]));
         let first = range.start as u32;
         let list = parts.entry(material).or_default();
-        let division = triangulator.divide(&corners, |[a, b, c]| {
+        let division = triangulator.divide(&corners, normal(&corners), |[a, b, c]| {
             let triangle = if axes.mirrors() { [a, c, b] } else { [a, b, c] };
             list.push(triangle.map(|corner| corner + first));
         });

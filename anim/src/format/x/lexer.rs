@@ -137,6 +137,11 @@ impl<'a> XLexer<'a> {
     /// Returns the next token as a finite number; `what` describes it.
     #[inline]
     pub(super) fn number(&mut self, what: &str) -> Result<f64, ImportError> {
+        if self.binary.is_none()
+            && let Some(number) = self.text.short_number()
+        {
+            return Ok(number);
+        }
         let found = self.need(what)?;
         match found.token {
             XToken::Word(text) => self.text.number_of(TextToken { text, at: found.at }, what),
@@ -169,8 +174,9 @@ impl<'a> XLexer<'a> {
     pub(super) fn whole(&mut self, what: &str, limit: u32) -> Result<u32, ImportError> {
         let at = self.at();
         let number = self.number(what)?;
-        if number >= 0.0 && number <= f64::from(limit) && number.fract() == 0.0 {
-            return Ok(number as u32);
+        let whole = number as u32;
+        if f64::from(whole) == number && whole <= limit {
+            return Ok(whole);
         }
         let reason = format!("{number} where {what} was expected, a whole number of at most {limit}");
         Err(self.invalid(self.first_of(at), NUMBER_INVALID, reason))
@@ -203,6 +209,14 @@ impl<'a> XLexer<'a> {
     /// Returns the bytes of a place in the file.
     pub(super) fn text(&self, range: Range<usize>) -> &'a [u8] {
         &self.bytes[range]
+    }
+
+    /// Returns the offset of the next token, and of what separates it from the last one in a binary file.
+    pub(super) fn next_at(&mut self) -> usize {
+        if self.binary.is_none() {
+            self.text.skip_blank();
+        }
+        self.at()
     }
 
     /// Returns the place of the token that was read last, which was the only one from `before` on.

@@ -162,7 +162,7 @@ impl SetReader<'_> {
     fn times(&self, keys: &XKeys) -> Result<(Arc<[f32]>, Vec<u32>), ImportError> {
         let context = self.context;
         let place = || self.place(keys.block.start);
-        context.charge(&place(), keys.rows.len() as u64 * (16 + 4 * keys.kind.width().min(12) as u64))?;
+        context.charge_at(place, keys.rows.len() as u64 * (16 + 4 * keys.kind.width().min(12) as u64))?;
         context.work(2 * keys.rows.len())?;
         let (used, times) = used_rows(keys, self.conversion);
         if used.len() < keys.rows.len() || used.windows(2).any(|pair| pair[0] > pair[1]) {
