@@ -365,3 +365,25 @@ fn the_motion_of_a_text_file_is_read_as_its_numbers() {
     assert!(places[0].abs_diff_eq(Vec3::new(0.0, 1.0, 2.0), 1e-6), "{places:?}");
     assert!(places[1].abs_diff_eq(Vec3::new(0.0, 0.0, 2.0), 1e-6), "{places:?}");
 }
+
+#[test]
+fn a_capture_whose_rest_pose_hangs_below_the_ground_does_not_lift_the_target() {
+    // As in files of captures: the hips rest at the origin, and the motion has their height, 0.9 above the feet.
+    let (mut source, target) = (figure(2), figure(2));
+    source.bones[0].rest.translation = Vec3::ZERO;
+    let hips = Channel::new([0.0, 1.0], [0.9 * Vec3::Y, Vec3::new(0.0, 0.8, 2.0)], Interpolation::Linear);
+    let walk = take(vec![Track { translation: hips, ..Track::default() }]);
+    let guess = BindingGuess::of(&source, &target);
+    let moved =
+        retarget_figure(&walk, &source, &target, &guess.binding, &FigureOptions::default()).unwrap().take;
+    for (time, wanted) in [(0.0, Vec3::Y), (1.0, Vec3::new(0.0, 0.9, 2.0))] {
+        let at = places(&target, &moved, time)[0];
+        assert!(at.abs_diff_eq(wanted, 1e-3), "{time}: {at}");
+    }
+    // A take that stays below the ground keeps its distance from the rest pose.
+    let still = Channel::new([0.0, 1.0], [Vec3::ZERO, Vec3::Z], Interpolation::Linear);
+    let still = take(vec![Track { translation: still, ..Track::default() }]);
+    let moved =
+        retarget_figure(&still, &source, &target, &guess.binding, &FigureOptions::default()).unwrap().take;
+    assert!(places(&target, &moved, 1.0)[0].abs_diff_eq(Vec3::new(0.0, 1.0, 1.0), 1e-3));
+}

@@ -4,6 +4,7 @@ use super::attach::AttachedFeet;
 use super::convention::{BodyPart, BoneRole, SkeletonRoles};
 use super::reach::bring_into_reach;
 use super::spread::spread;
+use super::standing::standing;
 use super::twist::{has_free_twist_bone, twist};
 use super::{RetargetOptions, SkeletonBinding, height_ratio, leg_ratio, rebind, retarget};
 use crate::contact::{
@@ -171,6 +172,9 @@ fn transferred(
     let hips = hips.or_else(|| guess_hips(target)).filter(|&hips| is_bound(binding, hips));
     let transfer =
         RetargetOptions { trunk: hips.map(|hips| trunk(target, hips)), ..RetargetOptions::default() };
+    let carrier = hips.and_then(|hips| binding.source_of.get(hips as usize).copied().flatten());
+    let grounded = carrier.map(|carrier| standing(source, take, carrier, transfer.up));
+    let source = grounded.as_deref().unwrap_or(source);
     let ratio = leg_size(source, target, binding, roles)
         .unwrap_or_else(|| height_ratio(source, target, binding, hips.unwrap_or(0), transfer.up));
     let mut result =

@@ -74,6 +74,7 @@ mod rest;
 mod rotation;
 mod sample_times;
 mod spread;
+mod standing;
 mod transfer;
 mod translation;
 mod twist;
