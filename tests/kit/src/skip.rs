@@ -17,13 +17,13 @@ pub enum TestNeed {
     Root,
     /// A Vulkan adapter.
     Adapter,
-    /// node, with the packages of the glTF validator and three.js.
+    /// Programs that judge files: node, with the packages of the glTF validator and three.js; xmllint.
     Evaluators,
     /// A folder with more models than the repository has.
     Models,
     /// Something of the file system or the kernel: loop devices, attributes, immutable files.
     FileSystem,
-    /// A program: python3, xmllint.
+    /// A program: python3.
     Program,
     /// Programs that run jobs of farms: openjd, Slurm.
     Farm,
