@@ -20,7 +20,7 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Mat4, Quat, Vec3};
 use std::path::PathBuf;
 
-fn load(path: PathBuf) -> ModelData {
+pub(crate) fn load(path: PathBuf) -> ModelData {
     let bytes = std::fs::read(&path).unwrap();
     let door = TestFolder(path.parent().unwrap().to_owned());
     read("model.glb", &bytes, &door, &ReadOptions::default()).unwrap().model

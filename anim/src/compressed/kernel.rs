@@ -144,7 +144,8 @@ impl<'a> KeyPair<'a> {
         for (part, groups) in tables.moving.iter().enumerate() {
             for group in groups {
                 let Some(heads) = pair(next / 2) else { return };
-                let [a, b] = if next % 2 == 0 { self.keys::<S, 0>(heads) } else { self.keys::<S, 1>(heads) };
+                let [a, b] =
+                    if next.is_multiple_of(2) { self.keys::<S, 0>(heads) } else { self.keys::<S, 1>(heads) };
                 next += 1;
                 let vector = three!(axis => b[axis].mul_add(to, a[axis] * from));
                 put_vectors::<S>(group, vector, part, out);
