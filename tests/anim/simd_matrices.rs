@@ -136,7 +136,7 @@ impl Kernel for DecodedRows<'_> {
 #[test]
 fn a_pair_of_rows_is_decoded_as_single_rows_are() {
     let bytes: Vec<u8> = (0..80_u32).map(|byte| (byte * 37 % 256) as u8).collect();
-    let lanes = [[0, 2, 3, 12, 0, 1, 7, 12], [1, 5, 9, 12, 2, 128, 10, 4]];
+    let lanes = [[0, 2, 3, 12, 0, 1, 7, 12], [1, 5, 9, 15, 2, 128, 126, 123]];
     let masks = [[0xff, 0x3ff0, 0x7f_0000, 0, 0x7fff_0000, 1, 0xff00, 0xfff], [0xf0; 8]];
     let factors = [[0x3f80, 0x4000, 0x3f00, 0x3f80, 0x3780, 0x3f80, 0x3e80, 0x4080], [0x3f80; 8]];
     let addends = [[1.0, -2.0, 3.0, 4.0, -0.5, 2.5, 0.0, 1.5], [-4.5, 2.0, -3.0, 1.0, 0.25, 2.0, -1.0, 0.5]];

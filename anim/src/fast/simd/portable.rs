@@ -327,6 +327,23 @@ impl Float4 for Array4 {
     }
 }
 
+/// Returns four bytes of a half, as [`Word8::near`] does.
+#[inline(always)]
+fn word_of(half: u128, first: u8) -> u32 {
+    // A rotation wraps around as the offsets do.
+    if first < 125 { half.rotate_right(8 * u32::from(first & 15)) as u32 } else { cut_word_of(half, first) }
+}
+
+/// As [`word_of`], where some bytes may be zero because of their offset.
+#[cold]
+fn cut_word_of(half: u128, first: u8) -> u32 {
+    let byte = |step: u8| {
+        let from = first.wrapping_add(step);
+        if from < 128 { (half >> (8 * u32::from(from & 15))) as u8 } else { 0 }
+    };
+    u32::from_le_bytes([byte(0), byte(1), byte(2), byte(3)])
+}
+
 impl Word8 for Words8 {
     type Float = Array8;
 
@@ -385,15 +402,14 @@ impl Word8 for Words8 {
     #[inline(always)]
     fn near(bytes: &[u8], at: usize, second: u8, lanes: &[u8; 8]) -> Self {
         let Some(last) = bytes.len().checked_sub(32) else { return Self([0; 8]) };
-        let Some(chunk) = bytes[at.min(last)..].first_chunk::<32>() else { return Self([0; 8]) };
-        lanes!(Self, [0; 8], lane => {
-            let half = if lane < 4 { 0 } else { usize::from(second & 15) };
-            let byte = |step: u8| {
-                let from = lanes[lane].wrapping_add(step);
-                if from < 128 { chunk[half + usize::from(from & 15)] } else { 0 }
-            };
-            u32::from_le_bytes([byte(0), byte(1), byte(2), byte(3)])
-        })
+        let chunk = bytes.get(at.min(last)..).unwrap_or_default();
+        let (Some(low), Some(high)) =
+            (chunk.first_chunk(), chunk.get(usize::from(second & 15)..).and_then(|high| high.first_chunk()))
+        else {
+            return Self([0; 8]);
+        };
+        let (low, high) = (u128::from_le_bytes(*low), u128::from_le_bytes(*high));
+        lanes!(Self, [0; 8], lane => word_of(if lane < 4 { low } else { high }, lanes[lane]))
     }
 
     #[inline(always)]
