@@ -58,7 +58,7 @@ fn the_times_of_a_script_follow_from_ways_speeds_and_takes() {
     assert_eq!((begin, end, line), (0.0, 2.0, 9.into()));
     let (begin, end, _) = action("looks");
     assert_eq!(begin, 2.0);
-    assert!((end - 2.0 - number(&survey["length"])).abs() < 1e-3, "{end} {survey}");
+    assert!((end - 2.0 - number(&survey["end"])).abs() < 1e-3, "{end} {survey}");
     assert_eq!(times["length"], end);
     let table = run(["script", text(&path)]).expect(0).text().to_owned();
     assert!(table.lines().any(|line| line.contains("walk") && line.contains("2.000")), "{table}");
@@ -94,11 +94,11 @@ fn a_role_stands_where_its_way_leads_at_each_time() {
 }
 
 #[test]
-fn what_is_wrong_with_a_script_is_told_with_line_column_and_a_suggestion() {
+fn what_is_wrong_with_a_script_is_listed_with_line_column_and_a_suggestion() {
     let wrong =
         SCENE.replace("take=\"Survey\"", "take=\"Survy\"").replace("models/box_sparse.glb", "models/box.glb");
     let (_folder, path) = scene("scene-check", &wrong);
-    // Models first: what a script says about a missing one cannot be checked.
+    // Without all models, takes and bones are not checked.
     let found = run(["check", text(&path), "--json"]).expect(1).json();
     let finding = &found[0]["findings"][0];
     assert_eq!((&finding["severity"], &finding["place"]), (&"error".into(), &"4:27".into()), "{found}");
@@ -107,7 +107,7 @@ fn what_is_wrong_with_a_script_is_told_with_line_column_and_a_suggestion() {
     fs::write(&path, wrong.replace("models/box.glb", "models/box_sparse.glb")).expect("a file");
     let printed = run(["check", text(&path)]).expect(1).text().to_owned();
     assert!(printed.contains("scene.xml: 1 error"), "{printed}");
-    assert!(printed.contains("10:40: ") && printed.contains("did you mean \"Survey\""), "{printed}");
+    assert!(printed.contains("10:38: ") && printed.contains("did you mean \"Survey\""), "{printed}");
     fs::write(&path, SCENE).expect("a file");
     run(["check", text(&path)]).expect(0);
     let other = run(["pose", text(&path.with_file_name("models/Fox.glb")), "--role", "fox", "--time", "0"]);
@@ -129,7 +129,7 @@ fn models_outside_of_the_folder_of_the_script_are_refused() {
         std::os::unix::fs::symlink(folder.join("models"), folder.join("inner/models")).expect("a link");
         fs::write(&inner, SCENE).expect("a file");
         let refused = run(["check", text(&inner)]).expect(1).text().to_owned();
-        assert!(refused.contains("outside"), "{refused}");
+        assert!(refused.contains("leads out of"), "{refused}");
     }
     let binary = folder.join("binary.xml");
     fs::write(&binary, b"<script>\n\xff\xfe</script>").expect("a file");

@@ -34,7 +34,7 @@ pub enum SceneLoadError {
         reason: FileAccessError,
     },
     /// The script, or a model that it names, is wrong.
-    #[error("{}", told(title, errors))]
+    #[error("{}", listed(title, errors))]
     Script {
         /// Name of the script's file.
         title: String,
@@ -47,7 +47,7 @@ pub enum SceneLoadError {
 }
 
 /// Returns the errors, a line each: `FILE:LINE:COLUMN: MESSAGE`.
-fn told(title: &str, errors: &[ScriptError]) -> String {
+fn listed(title: &str, errors: &[ScriptError]) -> String {
     errors.iter().map(|error| error.in_file(title)).collect::<Vec<_>>().join("\n")
 }
 

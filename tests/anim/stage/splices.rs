@@ -78,7 +78,7 @@ fn a_new_element_has_a_line_of_its_own_with_the_indentation_of_its_siblings() {
         insert(script.tree(), ElementPlace::First(with_id(script, "ben-acts")), &wait)
     });
     assert_eq!(difference(DUEL, &first), (vec![], vec![r#"      <wait dur="0.5"/>"#]));
-    // A comment behind the sibling stays behind it.
+    // A comment after the sibling stays there.
     let camera = NewElement::new("camera").with("id", "side");
     let commented =
         changed(DUEL, |script| insert(script.tree(), ElementPlace::After(with_id(script, "rail")), &camera));

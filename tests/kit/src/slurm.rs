@@ -74,8 +74,8 @@ impl Drop for SlurmCluster {
     }
 }
 
-/// Returns the configuration of a cluster whose state lies in `folder`. Nobody has to prove who they are: it only listens
-/// on this machine.
+/// Returns the configuration of a cluster whose state is in `folder`. There is no authentication: it only listens on this
+/// machine.
 fn configuration(folder: &Folder, host: &str) -> String {
     let state = folder.join("state");
     let spool = folder.join("spool");

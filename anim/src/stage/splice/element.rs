@@ -7,7 +7,7 @@ use super::{TextSplice, TextSplices};
 use crate::stage::script::ScriptTree;
 use std::ops::Range;
 
-/// What happens to the comments directly above an element and behind it in its line.
+/// Treatment of the comments directly above an element and after it in its line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AttachedComments {
     /// They stay where they are.
