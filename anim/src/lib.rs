@@ -64,9 +64,13 @@
 //! | inverse kinematics, with joint limits | [`ik`], [`joint`] |
 //! | tangents of cubic splines; full turns and signs of rotation keys; keys repeated in cycles | [`tangents`], [`turns`], [`cycle`] |
 //! | root motion; a root bone for it | [`motion`], [`root_bone`] |
-//! | contacts of feet; loops; defects of a take; a take at its frames | [`contact`], [`loops`], [`lint`], [`frames`] |
+//! | contacts of feet; loops; defects of a take | [`contact`], [`loops`], [`lint`] |
+//! | a take at its frames, and with keys at them | [`frames`], [`bake`] |
 //! | play a take on another skeleton | [`retarget`] |
-//! | scenes of several characters, driven by a script in XML | `stage` (feature `stage`) |
+#![cfg_attr(
+    feature = "stage",
+    doc = "| scenes of several characters, driven by a script in XML | [`stage`] (feature `stage`) |"
+)]
 //! | change many keys by the same offset, with falloff | [`offset`] |
 //! | remove redundant keys | [`reduce`] |
 //! | in-betweens: blend keys with their neighbors, smooth curves | [`inbetween`] |
