@@ -2,7 +2,7 @@
 
 use super::{TextSplice, TextSplices, escaped};
 use crate::stage::script::{ScriptAttribute, ScriptTree, is_name};
-use crate::stage::table::ReferenceKind;
+use crate::stage::table::NameReference;
 use std::collections::HashMap;
 
 /// Returns a name that no element has: `base`, without what cannot be in a name, and with a number where it is taken.
@@ -77,10 +77,10 @@ pub(super) fn with_new_ids(tree: &ScriptTree, element: usize) -> Option<String> 
 fn named(attribute: &ScriptAttribute) -> Option<&str> {
     let value = &*attribute.value;
     let name = match attribute.row.reference()? {
-        ReferenceKind::Name => value,
+        NameReference::Name => value,
         // A moment of an action, or a thing or one of its bones: the name is in front of the first point.
-        ReferenceKind::Moment => value.split_once('.')?.0,
-        ReferenceKind::Spot => value.split_once('.').map_or(value, |(name, _)| name),
+        NameReference::Moment => value.split_once('.')?.0,
+        NameReference::Spot => value.split_once('.').map_or(value, |(name, _)| name),
     };
     is_name(name).then_some(name)
 }

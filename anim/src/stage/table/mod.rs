@@ -12,7 +12,7 @@ mod schema;
 mod value;
 
 pub use property::{PROPERTIES, PropertyRow, PropertyType, property};
-pub use reference::ReferenceKind;
+pub use reference::NameReference;
 pub use row::{AttributeRow, ElementGroup, ElementRow};
 pub use schema::schema;
 pub use value::ValueRow;

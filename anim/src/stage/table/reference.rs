@@ -4,7 +4,7 @@ use super::row::AttributeRow;
 
 /// How a value names a thing or an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ReferenceKind {
+pub enum NameReference {
     /// The value is the name of a thing.
     Name,
     /// The name of an action and one of its moments: `walk.end-0.5`. A value without a point is a time.
@@ -14,21 +14,21 @@ pub enum ReferenceKind {
 }
 
 /// Attributes with references, whatever element they are of.
-const REFERENCES: [(&str, ReferenceKind); 9] = [
-    ("who", ReferenceKind::Name),
-    ("path", ReferenceKind::Name),
-    ("begin", ReferenceKind::Moment),
-    ("end", ReferenceKind::Moment),
-    ("at", ReferenceKind::Spot),
-    ("to", ReferenceKind::Spot),
-    ("look", ReferenceKind::Spot),
-    ("focus", ReferenceKind::Spot),
-    ("facing", ReferenceKind::Spot),
+const REFERENCES: [(&str, NameReference); 9] = [
+    ("who", NameReference::Name),
+    ("path", NameReference::Name),
+    ("begin", NameReference::Moment),
+    ("end", NameReference::Moment),
+    ("at", NameReference::Spot),
+    ("to", NameReference::Spot),
+    ("look", NameReference::Spot),
+    ("focus", NameReference::Spot),
+    ("facing", NameReference::Spot),
 ];
 
 impl AttributeRow {
     /// Returns how its value names a thing or an action; `None` where it names neither.
-    pub fn reference(&self) -> Option<ReferenceKind> {
+    pub fn reference(&self) -> Option<NameReference> {
         REFERENCES.iter().find(|(name, _)| *name == self.name).map(|(_, kind)| *kind)
     }
 }
