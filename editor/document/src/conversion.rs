@@ -145,12 +145,11 @@ pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile
         Ok(folder) => formats.read(&title, &bytes, &folder, &options),
         Err(_) => formats.read(&title, &bytes, &NoFiles, &options),
     };
-    let imported = imported.map_err(|error| match error {
+    let mut imported = imported.map_err(|error| match error {
         ImportError::Cancelled => LoadError::Cancelled,
         error => LoadError::Format { title: title.clone(), reason: error.to_string() },
     })?;
     drop(bytes);
-    let mut imported = imported;
     let name = file_name(&order.output);
     let failed = |reason: String| ConversionError::Export { title: title.clone(), reason };
     if let Some(rate) = order.bake {

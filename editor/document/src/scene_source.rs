@@ -1,9 +1,9 @@
 //! Scripts of scenes from files, with the models that they name.
 
-use super::import::formats;
-use super::source::file_name;
+use super::import::{self, ImportDoor};
+use super::source::{LoadError, file_name};
 use super::{Cancel, FileAccessError, Folder, read_file};
-use dragonfly_anim::format::{ImportError, ReadOptions};
+use dragonfly_anim::format::Conventions;
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_anim::stage::script::{MOST_BYTES, ScriptAttribute, ScriptError, StageScript};
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
@@ -120,10 +120,11 @@ fn load(source: &ScriptAttribute, folder: &Folder, cancel: &Cancel) -> Result<St
     let path = folder.path_of(&source.value).map_err(reason)?;
     let bytes = folder.read(&source.value, FILE_BYTES).map_err(reason)?;
     let beside = Folder::of(&path).map_err(reason)?;
-    let options = ReadOptions { is_cancelled: &|| cancel.is_cancelled(), ..ReadOptions::default() };
-    match formats().read(&file_name(&path), &bytes, &beside, &options) {
+    let door = ImportDoor { files: &beside, conventions: Conventions::default() };
+    match import::read(&file_name(&path), &bytes, door, &|_| {}, cancel) {
         Ok(imported) => Ok(StageModel::new(Arc::new(imported.model))),
-        Err(ImportError::Cancelled) => Err(None),
-        Err(error) => Err(Some(error.to_string())),
+        Err(LoadError::Cancelled) => Err(None),
+        Err(LoadError::Format { reason, .. }) => Err(Some(reason)),
+        Err(error @ LoadError::File { .. }) => Err(Some(error.to_string())),
     }
 }

@@ -169,9 +169,7 @@ impl CheckReport {
         let mut report = Self { file: title, ..Self::default() };
         let errors = errors.into_iter().map(|error| (Severity::Error, error));
         for (severity, error) in errors.chain(notes.into_iter().map(|note| (Severity::Note, note))) {
-            let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
-            let text = error.message + &help;
-            let place = error.place.to_string();
+            let (place, text) = (error.place.to_string(), error.text());
             report.add(deny, severity, FindingRow { severity: "", rule: "SCRIPT", place, text });
         }
         Ok(report)

@@ -24,6 +24,11 @@ impl ScriptError {
         Self { range, place, message: message.into(), help: help.into() }
     }
 
+    /// Returns the message, with the help after a semicolon.
+    pub fn text(&self) -> String {
+        if self.help.is_empty() { self.message.clone() } else { format!("{}; {}", self.message, self.help) }
+    }
+
     /// Returns `FILE:LINE:COLUMN: MESSAGE`, with the help after a semicolon.
     pub fn in_file(&self, file: &str) -> String {
         format!("{file}:{self}")
@@ -32,8 +37,7 @@ impl ScriptError {
 
 impl fmt::Display for ScriptError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}: {}", self.place, self.message)?;
-        if self.help.is_empty() { Ok(()) } else { write!(out, "; {}", self.help) }
+        write!(out, "{}: {}", self.place, self.text())
     }
 }
 

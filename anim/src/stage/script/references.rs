@@ -1,11 +1,8 @@
 //! References of actions: to things, to each other's moments, to properties.
 
 use super::{ActionMoment, ErrorList, MomentText, NamedItem, StageRepeat, StageScript, suggestion};
-use crate::stage::table::{PROPERTIES, PropertyType, property, vector};
+use crate::stage::table::{NameReference, PROPERTIES, PropertyType, property, vector};
 use crate::stage::time::{Decimal, StageTime, parse_time};
-
-/// Attributes whose value may name a thing, alone or with a bone after a point.
-const SPOTS: [&str; 5] = ["at", "to", "look", "focus", "facing"];
 
 /// Resolves every reference of `script`, and decides which actions are passive.
 pub(super) fn resolve(script: &mut StageScript, errors: &mut ErrorList) {
@@ -134,7 +131,9 @@ fn check_who(script: &StageScript, index: usize, errors: &mut ErrorList) {
 /// Checks that the names in positions and directions are things.
 fn check_spots(script: &StageScript, index: usize, errors: &mut ErrorList) {
     let element = &script.tree.elements[index];
-    for attribute in element.attributes.iter().filter(|attribute| SPOTS.contains(&attribute.row.name)) {
+    for attribute in
+        element.attributes.iter().filter(|attribute| attribute.row.reference() == Some(NameReference::Spot))
+    {
         let is_spot = matches!(attribute.row.value.pattern, "") && attribute.row.value.choices.is_empty();
         let value = &*attribute.value;
         // The `to` of a property is a value.

@@ -58,11 +58,11 @@ impl RolePoses {
             let model = plan.things()[thing].model.as_ref();
             let bones = model.zip(state.pose.as_ref()).map_or(Vec::new(), |(model, pose)| {
                 let bones = model.skeleton().bones.iter().zip(pose.to_root.matrices());
-                let row = |(bone, to_root): (&dragonfly_anim::data::Bone, _)| SceneBoneRow {
-                    name: bone.name.clone(),
+                let row = |name: &str, to_root| SceneBoneRow {
+                    name: name.to_owned(),
                     to_scene: (to_scene * mat4(to_root)).to_cols_array(),
                 };
-                bones.map(row).collect()
+                bones.map(|(bone, to_root)| row(&bone.name, to_root)).collect()
             });
             RolePoseRow {
                 time: shown.time.seconds(),
