@@ -3,6 +3,7 @@
 use super::adapter::{ModelAdapter, PendingAt, TakeVersions};
 use super::history::Edited;
 use super::images::ImageSurvey;
+use super::scene_view::SceneView;
 use super::shapes::ModelShapes;
 use super::step_amount::StepAmount;
 use dragonfly_anim::bounds::Bounds;
@@ -148,6 +149,8 @@ pub struct View {
     pub history: Arc<HistoryView>,
     /// The file of the document.
     pub file: Arc<FileView>,
+    /// The scene, if a script is open; the model is then an empty one.
+    pub scene: Option<Arc<SceneView>>,
     /// Whether unsaved work is not recorded, so that a crash would lose it.
     pub is_unrecorded: bool,
 }
@@ -182,6 +185,7 @@ impl View {
             shapes,
             history,
             file,
+            scene: None,
             is_unrecorded: false,
         }
     }

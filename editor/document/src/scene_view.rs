@@ -1,0 +1,51 @@
+//! The published state of a scene: its script, what plays, and the models of its things.
+
+use super::LoadedModel;
+use dragonfly_anim::stage::script::{ScriptError, StageScript};
+use dragonfly_anim::stage::{PlannedThing, StagePlan};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The newest state of a scene. Nothing changes it.
+#[derive(Clone, Debug, Default)]
+pub struct SceneView {
+    /// The newest text of the script.
+    pub text: Arc<str>,
+    /// The script of the last text without errors; `None` before the first one. While [`Self::errors`] has some, its ranges are those of an
+    /// older text.
+    pub script: Option<Arc<StageScript>>,
+    /// The plan of that script, which plays.
+    pub plan: Option<Arc<StagePlan>>,
+    /// What is wrong with [`Self::text`], in its order; empty if `script` and `plan` are those of this text.
+    pub errors: Arc<[ScriptError]>,
+    /// The models, by the text with which the script names them.
+    pub models: Arc<BTreeMap<String, SceneModel>>,
+}
+
+/// A model that a script names.
+#[derive(Clone, Debug)]
+pub enum SceneModel {
+    /// It is being read.
+    Loading,
+    /// It was read. Views of a scene share it until it changes.
+    Loaded(Arc<LoadedModel>),
+    /// It is not there or cannot be read, for this reason. What needs it is shown as a placeholder.
+    Missing(String),
+}
+
+impl SceneView {
+    /// Returns whether what plays is the newest text.
+    pub fn is_current(&self) -> bool {
+        self.errors.is_empty() && self.plan.is_some()
+    }
+
+    /// Returns the model of a thing of the plan; `None` for things without one, and while it is missing.
+    pub fn model_of(&self, thing: &PlannedThing) -> Option<&Arc<LoadedModel>> {
+        let script = self.script.as_ref()?;
+        let element = script.things().find(|element| element.value("id") == Some(&*thing.id))?;
+        match self.models.get(element.value("model")?)? {
+            SceneModel::Loaded(loaded) => Some(loaded),
+            SceneModel::Loading | SceneModel::Missing(_) => None,
+        }
+    }
+}
