@@ -90,7 +90,7 @@ impl Neg for StageTime {
     }
 }
 
-/// A number as it is written: `digits / 10^scale`, exact.
+/// A number as it is written: `digits / 10^scale`, exact up to nine decimals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Decimal {
     digits: i64,
@@ -104,25 +104,27 @@ impl Decimal {
     /// Number of digits after the point that are read.
     const MOST_SCALE: u32 = 9;
 
-    /// Reads digits with at most one point and a sign, such as `-1.25`. Decimals past the ninth have to be 0. Returns
-    /// `None` for anything else, and where the magnitude is a thousand million or more.
+    /// Reads digits with at most one point and a sign, such as `-1.25`. More than nine decimals are rounded to nine, half away from zero.
+    /// Returns `None` for anything else, and where the magnitude is a thousand million or more.
     pub fn parse(text: &str) -> Option<Self> {
         let (sign, unsigned) = match text.strip_prefix('-') {
             Some(rest) => (-1, rest),
             None => (1, text.strip_prefix('+').unwrap_or(text)),
         };
         let (whole, part) = unsigned.split_once('.').unwrap_or((unsigned, ""));
-        let part = part.trim_end_matches('0');
         let is_number = |digits: &str| digits.bytes().all(|digit| digit.is_ascii_digit());
         let has_digits = unsigned.bytes().any(|byte| byte.is_ascii_digit());
-        if !(has_digits && is_number(whole) && is_number(part)) || part.len() > Self::MOST_SCALE as usize {
+        if !(has_digits && is_number(whole) && is_number(part)) {
             return None;
         }
+        let (part, rest) = part.split_at_checked(Self::MOST_SCALE as usize).unwrap_or((part, ""));
+        let is_rounded_up = rest.bytes().next().is_some_and(|digit| digit >= b'5');
+        let part = if rest.is_empty() { part.trim_end_matches('0') } else { part };
         let whole = whole.trim_start_matches('0');
         if whole.len() > 9 {
             return None;
         }
-        let digits = format!("0{whole}{part}").parse::<i64>().ok()?;
+        let digits = format!("0{whole}{part}").parse::<i64>().ok()? + i64::from(is_rounded_up);
         Some(Self { digits: sign * digits, scale: part.len() as u32 })
     }
 

@@ -3,6 +3,7 @@
 mod actors;
 mod errors;
 mod feet;
+mod holding;
 mod live;
 mod oracle;
 mod pure;

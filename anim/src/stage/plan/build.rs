@@ -6,6 +6,7 @@ use super::cues::{RunCue, ShotCue, SoundCue, TitleCue, run_seed};
 use super::holds::{HoldCue, HoldKind, RigidPlace};
 use super::looks::LookCue;
 use super::motions::{BoundAction, MotionPlanner};
+use super::needed::holder;
 use super::poses::{PoseCue, PoseLane, TakeClock};
 use super::properties::{PropertyCue, property_value};
 use super::spot::StageSpot;
@@ -253,27 +254,33 @@ impl<'a> PlanBuilder<'a> {
     }
 }
 
-/// Returns the things in an order in which those that hold others come first; the things of a loop as an error.
-pub(super) fn holding_order(things: &[PlannedThing]) -> Result<Vec<usize>, Vec<usize>> {
-    let count = things.len();
-    let holders = |thing: usize| {
-        things[thing].holds.iter().filter_map(|hold| match hold.kind {
-            HoldKind::Attach { to, .. } => StageSpot::thing(to),
-            HoldKind::Detach { .. } => None,
-        })
-    };
-    let (mut order, mut is_done) = (Vec::with_capacity(count), vec![false; count]);
-    while order.len() < count {
-        let before = order.len();
-        for thing in 0..count {
-            if !is_done[thing] && holders(thing).all(|holder| is_done[holder]) {
-                is_done[thing] = true;
+/// Returns the things in an order in which those that hold others come first, with the number of things that hold each one, one through
+/// another; the things of a loop as an error.
+pub(super) fn holding_order(things: &[PlannedThing]) -> Result<(Vec<usize>, Vec<usize>), Vec<usize>> {
+    let mut held: Vec<Vec<usize>> = vec![Vec::new(); things.len()];
+    let mut waits_for = vec![0_usize; things.len()];
+    for (thing, planned) in things.iter().enumerate() {
+        for holder in planned.holds.iter().filter_map(holder) {
+            held[holder].push(thing);
+            waits_for[thing] += 1;
+        }
+    }
+    let mut order: Vec<usize> = (0..things.len()).filter(|&thing| waits_for[thing] == 0).collect();
+    let mut depths = vec![0; things.len()];
+    let mut done = 0;
+    while let Some(&holder) = order.get(done) {
+        done += 1;
+        for &thing in &held[holder] {
+            depths[thing] = depths[thing].max(depths[holder] + 1);
+            waits_for[thing] -= 1;
+            if waits_for[thing] == 0 {
                 order.push(thing);
             }
         }
-        if order.len() == before {
-            return Err((0..count).filter(|&thing| !is_done[thing]).collect());
-        }
     }
-    Ok(order)
+    if order.len() == things.len() {
+        Ok((order, depths))
+    } else {
+        Err((0..things.len()).filter(|&thing| waits_for[thing] > 0).collect())
+    }
 }

@@ -4,6 +4,7 @@ use super::StagePlan;
 use super::cameras::camera;
 use super::feet::{RoleSpace, WalkState, keep_feet};
 use super::holds::{HoldKind, RigidPlace, fallen};
+use super::needed::NeededThings;
 use super::places::MotionKind;
 use super::poses::pose_role;
 use super::spot::StageSpot;
@@ -18,27 +19,14 @@ use crate::stage::time::StageTime;
 use glam::{DVec3, Vec3};
 
 /// Number of attachments that may fade into each other; further ones begin at once.
-const MOST_FADES: usize = 4;
+pub(super) const MOST_FADES: usize = 4;
 
 /// Writes the scene of `plan` at `time`.
 pub(super) fn evaluate(plan: &StagePlan, time: StageTime, scene: &mut StageScene) {
     if !fits(plan, scene) {
         *scene = plan.new_scene();
     }
-    scene.time = time;
-    for &thing in &plan.order {
-        let place = place_of(plan, thing, time, &scene.things, plan.things[thing].holds.len(), MOST_FADES);
-        scene.things[thing].transform = transform(&place, plan.things[thing].scale);
-        pose(plan, thing, time, scene);
-    }
-    for thing in 0..plan.things.len() {
-        look(plan, thing, time, scene);
-    }
-    // Held things follow the hands as they are now.
-    for &thing in plan.order.iter().filter(|&&thing| !plan.things[thing].holds.is_empty()) {
-        let place = place_of(plan, thing, time, &scene.things, plan.things[thing].holds.len(), MOST_FADES);
-        scene.things[thing].transform = transform(&place, plan.things[thing].scale);
-    }
+    place_things(plan, time, scene, &plan.order, 0..plan.things.len());
     scene.camera = camera(plan, time, &scene.things);
     for (thing, state) in plan.things.iter().zip(&mut scene.things) {
         properties(thing, time, state);
@@ -51,6 +39,44 @@ pub(super) fn evaluate(plan: &StagePlan, time: StageTime, scene: &mut StageScene
         let seconds = cue.time(time)?.seconds();
         Some(PlayingSound { sound, seconds, gain: (cue.gain * cue.span.weight(time)) as f32 })
     }));
+}
+
+/// Computes the place of one thing at `time`, and of what that needs. The other things of `scene` stay as they are.
+pub(super) fn evaluate_one(
+    plan: &StagePlan,
+    needed: &mut NeededThings,
+    thing: usize,
+    time: StageTime,
+    scene: &mut StageScene,
+) -> RigidPlace {
+    needed.find(plan, thing, time);
+    place_things(plan, time, scene, &needed.by_rank, needed.by_index.iter().copied());
+    rigid(&scene.things[thing].transform)
+}
+
+/// Computes places and poses of the given things: `by_rank` has those that hold others first, `by_index` has the same in the order of the
+/// cast.
+fn place_things(
+    plan: &StagePlan,
+    time: StageTime,
+    scene: &mut StageScene,
+    by_rank: &[usize],
+    by_index: impl Iterator<Item = usize>,
+) {
+    scene.time = time;
+    for &thing in by_rank {
+        let place = place_of(plan, thing, time, &scene.things, plan.things[thing].holds.len(), MOST_FADES);
+        scene.things[thing].transform = transform(&place, plan.things[thing].scale);
+        pose(plan, thing, time, scene);
+    }
+    for thing in by_index {
+        look(plan, thing, time, scene);
+    }
+    // Held things follow the hands as they are now.
+    for &thing in by_rank.iter().filter(|&&thing| !plan.things[thing].holds.is_empty()) {
+        let place = place_of(plan, thing, time, &scene.things, plan.things[thing].holds.len(), MOST_FADES);
+        scene.things[thing].transform = transform(&place, plan.things[thing].scale);
+    }
 }
 
 /// Returns whether a scene has room for the things of a plan.

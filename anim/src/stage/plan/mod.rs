@@ -12,6 +12,7 @@ mod follow;
 mod holds;
 mod looks;
 mod motions;
+mod needed;
 mod placement;
 mod places;
 mod poses;
@@ -34,6 +35,13 @@ use build::{PlanBuilder, holding_order};
 use cues::ShotCue;
 use glam::Vec3;
 use holds::HoldKind;
+use needed::NeededThings;
+
+/// Number of things that may hold one, each through the next.
+const MOST_HOLDERS: usize = 64;
+
+/// Number of places that may be computed to find where things are detached.
+const MOST_COMPUTED: usize = 200_000;
 
 /// A script with its times and models. Never changes, so threads can share it; each needs a [`StageScene`] of its own.
 #[derive(Clone, Debug)]
@@ -82,26 +90,41 @@ impl StagePlan {
             sounds: builder.sounds,
         };
         match holding_order(&plan.things) {
-            Ok(order) => plan.order = order,
-            Err(things) => return Err(plan.held_in_a_loop(script, &things)),
+            Ok((order, depths)) => {
+                plan.order = order;
+                if let Some(thing) = depths.iter().position(|&depth| depth > MOST_HOLDERS) {
+                    let id = &plan.things[thing].id;
+                    let message =
+                        format!("more than {MOST_HOLDERS} things hold \"{id}\", one through another");
+                    return Err(plan.held_wrongly(script, &[thing], message));
+                }
+            }
+            Err(things) => {
+                let names: Vec<&str> = things.iter().take(20).map(|&thing| &*plan.things[thing].id).collect();
+                let more = if things.len() > names.len() { ", …" } else { "" };
+                let message = format!("these things hold each other: {}{more}", names.join(", "));
+                return Err(plan.held_wrongly(script, &things, message));
+            }
         }
-        plan.detach_places();
+        if let Err(thing) = plan.detach_places() {
+            let message = "too many things hold or see what is detached here and before".to_owned();
+            return Err(plan.held_wrongly(script, &[thing], message));
+        }
         Ok(plan)
     }
 
-    fn held_in_a_loop(&self, script: &StageScript, things: &[usize]) -> Vec<ScriptError> {
-        let names: Vec<&str> = things.iter().map(|&thing| &*self.things[thing].id).collect();
+    /// Returns an error at the first attachment of `things`.
+    fn held_wrongly(&self, script: &StageScript, things: &[usize], message: String) -> Vec<ScriptError> {
         let action =
             things.iter().find_map(|&thing| self.things[thing].holds.first()).map_or(0, |hold| hold.action);
         let found = script.with_errors(|errors| {
-            let message = format!("these things hold each other: {}", names.join(", "));
             errors.add(script.element(action).name.clone(), message, "attach one of them to something else");
         });
         found.err().unwrap_or_default()
     }
 
-    /// Computes the place where each thing is detached, in the order of time.
-    fn detach_places(&mut self) {
+    /// Computes the place where each thing is detached, in the order of time. The error is a thing for which that takes too much.
+    fn detach_places(&mut self) -> Result<(), usize> {
         let mut all: Vec<(StageTime, usize, usize, usize)> = Vec::new();
         for (thing, planned) in self.things.iter().enumerate() {
             for (at, hold) in planned.holds.iter().enumerate() {
@@ -113,16 +136,20 @@ impl StagePlan {
         }
         all.sort_unstable();
         if all.is_empty() {
-            return;
+            return Ok(());
         }
-        let mut scene = self.new_scene();
+        let (mut scene, mut needed, mut computed) = (self.new_scene(), NeededThings::new(self), 0);
         for (begin, _, thing, at) in all {
-            self.scene_at(begin, &mut scene);
-            let place = evaluate::rigid(&scene.things[thing].transform);
+            let place = evaluate::evaluate_one(self, &mut needed, thing, begin, &mut scene);
+            computed += needed.by_rank.len();
+            if computed > MOST_COMPUTED {
+                return Err(thing);
+            }
             if let HoldKind::Detach { from, .. } = &mut self.things[thing].holds[at].kind {
                 *from = Some(place);
             }
         }
+        Ok(())
     }
 
     /// Returns the times of the actions.
