@@ -181,6 +181,15 @@ fn a_new_name_is_written_wherever_the_old_one_is_used() {
 }
 
 #[test]
+fn renaming_keeps_the_spelling_of_what_follows_the_name() {
+    let text = "<script version=\"1\"><cast><role id='anna' model='a.glb'/><role id='ben' model='b.glb'/></cast>\n\
+        <look who='ben' at='anna.a &gt; b&#x20;c' /><look who='&#97;nna' at='ben'/></script>";
+    let new = changed(text, |script| rename(script.tree(), with_id(script, "anna"), "eve"));
+    let expected = text.replace("'anna'", "'eve'").replace("'anna.a", "'eve.a").replace("'&#97;nna'", "'eve'");
+    assert_eq!(new, expected);
+}
+
+#[test]
 fn a_copy_has_new_names_and_its_own_references_follow() {
     let new = changed(DUEL, |script| duplicate(script.tree(), with_id(script, "anna-acts")));
     let (removed, added) = difference(DUEL, &new);

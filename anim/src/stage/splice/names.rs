@@ -48,7 +48,8 @@ pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Option<TextSplices
     }
     let names = HashMap::from([(&*own.value, id.to_owned())]);
     let attributes = tree.elements().iter().flat_map(|element| &element.attributes);
-    Some(TextSplices::of(attributes.filter_map(|attribute| renamed(attribute, &names)).collect()))
+    let text = tree.text();
+    Some(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
 }
 
 /// Returns the text of an element in which every id is a new one.
@@ -63,8 +64,8 @@ pub(super) fn with_new_ids(tree: &ScriptTree, element: usize) -> Option<String> 
         taken.push(new.clone());
         names.insert(id, new);
     }
-    let splices =
-        inside().flat_map(|element| &element.attributes).filter_map(|attribute| renamed(attribute, &names));
+    let attributes = inside().flat_map(|element| &element.attributes);
+    let splices = attributes.filter_map(|attribute| renamed(tree.text(), attribute, &names));
     let moved = |splice: TextSplice| TextSplice {
         range: splice.range.start - range.start..splice.range.end - range.start,
         ..splice
@@ -85,11 +86,15 @@ fn named(attribute: &ScriptAttribute) -> Option<&str> {
     is_name(name).then_some(name)
 }
 
-/// Returns the splice that gives an id, or a reference to one, its new name.
-fn renamed(attribute: &ScriptAttribute, names: &HashMap<&str, String>) -> Option<TextSplice> {
+/// Returns the splice that gives an id, or a reference to one, its new name. What follows the name keeps its spelling.
+fn renamed(text: &str, attribute: &ScriptAttribute, names: &HashMap<&str, String>) -> Option<TextSplice> {
     let old = if attribute.row.name == "id" { &*attribute.value } else { named(attribute)? };
-    let value = format!("{}{}", names.get(old)?, attribute.value.get(old.len()..)?);
-    // Names contain nothing that depends on the quotes, but a bone after the point may.
+    let (new, range) = (names.get(old)?, attribute.value_range.clone());
+    if text.get(range.clone())?.starts_with(old) {
+        return Some(TextSplice { range: range.start..range.start + old.len(), text: new.clone() });
+    }
+    // The name itself is written with references to letters.
+    let value = format!("{new}{}", attribute.value.get(old.len()..)?);
     let text = escaped(&value, '"').replace('\'', "&apos;");
-    Some(TextSplice { range: attribute.value_range.clone(), text })
+    Some(TextSplice { range, text })
 }
