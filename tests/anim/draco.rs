@@ -94,7 +94,9 @@ fn differences(expected: &[[Corner; 3]], found: &[[Corner; 3]]) -> (f32, f32, f3
 fn model(name: &str) -> ModelData {
     let bytes = std::fs::read(data().join(name)).expect("a file");
     let imported = read("a.glb", &bytes, &NoFiles, &ReadOptions::default()).expect("a good file");
-    assert_eq!(imported.warnings, [], "{name}");
+    // Weights of few bits do not add up to one.
+    let others = imported.warnings.iter().filter(|warning| warning.code != "ACCESSOR_WEIGHTS_NON_NORMALIZED");
+    assert_eq!(others.count(), 0, "{name}: {:?}", imported.warnings);
     imported.model
 }
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-/// Files of the collection with a person: skeletons of different names, rest poses and sizes.
+/// Files of the collection with a human: skeletons of different names, rest poses and sizes.
 const CLIPS: [&str; 7] = [
     "fbx/pab_run.fbx",
     "fbx/maya_kenney_character_7700_binary.fbx",

@@ -1,4 +1,4 @@
-//! Images of written files: in the file, or in files of their own beside it.
+//! Images of written files: in the file, or in files of their own next to it.
 
 use crate::support::{data, read_with};
 use dragonfly_anim::data::{Image, ModelData};
@@ -24,7 +24,7 @@ fn model() -> ModelData {
     let first = model.images[0].clone();
     assert_eq!(first.mime, "image/png");
     for (number, name) in ["skin.png", "SKIN.png", ""].into_iter().enumerate() {
-        // A trailing byte tells the images apart; decoders ignore it.
+        // A trailing byte makes the images different; decoders ignore it.
         let mut bytes = first.bytes.to_vec();
         bytes.push(number as u8);
         let file_name = (!name.is_empty()).then(|| format!("textures\\{name}"));

@@ -27,7 +27,7 @@ pub struct ConversionOrder {
     pub conventions: Conventions,
     /// Name of the preset of the format, see [`export`].
     pub preset: Option<String>,
-    /// Where images are written, for formats that leave the choice, see [`places_textures`].
+    /// Place of the images, for formats that leave the choice, see [`places_textures`].
     pub textures: Option<TexturePlacement>,
     /// Frames per second of keys that replace those of the takes, see [`baked`]; for OBJ, of the files, see [`write_sequence`].
     pub bake: Option<f32>,
@@ -42,7 +42,7 @@ pub struct ConvertedFile {
     pub from: &'static str,
     /// Size of the new file in bytes.
     pub bytes: usize,
-    /// Names and sizes of the files that it refers to, which are written beside it.
+    /// Names and sizes of the files that it refers to, which are written next to it.
     pub beside: Vec<(String, usize)>,
     /// Units, axes and frame rate of the input, and where they are known from.
     pub conversion: Conversion,
@@ -95,13 +95,13 @@ pub fn export_presets(format: &Format) -> &'static [ExportPreset] {
     if *format == FBX { PRESETS } else { &[] }
 }
 
-/// Returns whether files of a format can contain their images or have them as files beside them.
+/// Returns whether files of a format can contain their images or have them as files next to them.
 pub fn places_textures(format: &Format) -> bool {
     *format == FBX
 }
 
-/// Writes a model as a new file called `name`, with the preset of the format that has this name, and with its images where `textures`
-/// says.
+/// Writes a model as a new file called `name`, with the preset of the format that has this name, and with its images at the place
+/// `textures`.
 ///
 /// # Errors
 ///

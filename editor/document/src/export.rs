@@ -34,7 +34,7 @@ pub struct ExportOrder {
     pub output: PathBuf,
     /// Name of the preset: the program for which the files are.
     pub preset: Option<String>,
-    /// Where images are written; as is usual for the format where absent.
+    /// Place of the images; the usual one of the format where absent.
     pub textures: Option<TexturePlacement>,
     /// The part of the model.
     pub content: ExportContent,
@@ -51,11 +51,11 @@ pub struct ExportOrder {
 pub struct ExportedFile {
     /// The path.
     pub path: PathBuf,
-    /// Size in bytes, with the files beside it.
+    /// Size in bytes, with the files next to it.
     pub bytes: usize,
-    /// Names of the files that it refers to, which are written beside it.
+    /// Names of the files that it refers to, which are written next to it.
     pub beside: Vec<String>,
-    /// Whether a file of this path, or of one beside it, existed before.
+    /// Whether a file of this path, or of one next to it, existed before.
     pub replaces: bool,
 }
 

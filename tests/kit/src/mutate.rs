@@ -32,7 +32,7 @@ pub fn mutants() -> usize {
 }
 
 /// Returns the number of the first mutant to try: 0, or that in the environment variable `DRAGONFLY_FIRST`, with which a long run that
-/// was stopped goes on. The mutants before it are made, because each one depends on them, but not tried.
+/// was stopped is continued. The mutants before it are made, because each one depends on them, but not tried.
 pub fn first_mutant() -> usize {
     std::env::var("DRAGONFLY_FIRST").ok().and_then(|number| number.parse().ok()).unwrap_or(0)
 }

@@ -24,7 +24,7 @@ use std::collections::HashMap;
 /// Name of the extension.
 pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 
-/// Bytes that the decoder needs for a triangle and for a vertex while it works, beside the attributes.
+/// Bytes that the decoder needs for a triangle and for a vertex while it works, without the attributes.
 const TRIANGLE_BYTES: u64 = 160;
 const VERTEX_BYTES: u64 = 96;
 

@@ -1,4 +1,4 @@
-//! Images in the file or beside it, and the textures that use them.
+//! Images in the file or next to it, and the textures that use them.
 
 use super::losses::FbxLosses;
 use super::names::UsedNames;
@@ -20,11 +20,11 @@ struct WrittenImage {
 /// The images of a model; `None` for one that has neither bytes nor a name.
 pub(super) struct WrittenImages(Vec<Option<WrittenImage>>);
 
-/// Where the bytes of images go.
+/// Destination of the bytes of images.
 pub(super) enum ImageTarget<'a> {
     /// Into the file.
     Embedded,
-    /// Into files beside a file with this name without its extension.
+    /// Into files next to a file whose name without its extension is `stem`.
     Beside {
         stem: &'a str,
         files: Vec<OutputFile>,
@@ -39,7 +39,7 @@ impl<'a> ImageTarget<'a> {
         Self::Beside { stem, files: Vec::new(), used: HashSet::new() }
     }
 
-    /// Returns the files beside the file.
+    /// Returns the files that are not in the file itself.
     pub(super) fn into_files(self) -> Vec<OutputFile> {
         match self {
             Self::Embedded => Vec::new(),
@@ -61,7 +61,7 @@ impl<'a> ImageTarget<'a> {
     }
 }
 
-/// Returns the name of an image beside a file: it begins with the name of that file, so that the images of several files in one
+/// Returns the name of an image next to a file: it begins with the name of that file, so that the images of several files in one
 /// folder do not replace each other.
 fn name_beside(stem: &str, wanted: &str, used: &HashSet<String>) -> String {
     let begins = wanted.strip_prefix(stem).is_some_and(|rest| rest.starts_with(['_', '.']));

@@ -5,7 +5,7 @@
 //! names.rs     names of bones and takes
 //! bones.rs     a node for each bone
 //! instances.rs nodes of meshes ── mesh.rs geometry, shapes ── skin.rs clusters, bind pose
-//! materials.rs Phong values ── images.rs textures and images, in the file or beside it
+//! materials.rs Phong values ── images.rs textures and images, in the file or next to it
 //! takes.rs     a stack for each take ── curves.rs keys ── euler.rs angles, sample.rs channels
 //! scene.rs     objects and connections, the sections around them ── node.rs the bytes
 //! ```
@@ -43,7 +43,7 @@ use images::ImageTarget;
 use losses::FbxLosses;
 use preset::{ExportSettings, USUAL};
 
-/// Writes a model as a binary FBX file called `name`. Images that are to be beside it are files of the plan, with the name of the
+/// Writes a model as a binary FBX file called `name`. Images that are not in it are files of the plan, with the name of the
 /// file without its extension before their own.
 ///
 /// # Errors

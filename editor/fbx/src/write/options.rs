@@ -1,4 +1,4 @@
-//! What the user chooses for a file.
+//! Choices of the user for a file.
 
 use super::preset::ExportPreset;
 

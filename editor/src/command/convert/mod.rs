@@ -47,7 +47,7 @@ pub(super) struct ConvertArguments {
     /// Program for which the files are written: unity, unreal, maya or blender, for .fbx
     #[arg(long, value_name = "PRESET")]
     preset: Option<String>,
-    /// Where images are written, for .fbx: in the file, or as files beside it, whose names begin with its own [default: embedded]
+    /// Place of the images, for .fbx: in the file, or in files next to it, whose names begin with its own [default: embedded]
     #[arg(long, value_name = "PLACE", value_enum)]
     textures: Option<TextureChoice>,
     /// Write a key at every frame of this many frames per second, with lines between them, instead of the keys and curves; for .obj, a

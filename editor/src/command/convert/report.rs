@@ -35,7 +35,7 @@ struct ReportedFile {
     from: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     bytes: Option<usize>,
-    /// Names of the files that are written beside the output.
+    /// Names of the files that are written next to the output.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     beside: Vec<BesideFile>,
     #[serde(skip_serializing_if = "Option::is_none")]

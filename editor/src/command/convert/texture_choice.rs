@@ -2,12 +2,12 @@
 
 use dragonfly_fbx::TexturePlacement;
 
-/// Where images are written, as the command line names it.
+/// Place of the images, as the command line names it.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(in super::super) enum TextureChoice {
     /// Into the file
     Embedded,
-    /// Into files beside it
+    /// Into files next to it
     Beside,
 }
 

@@ -28,7 +28,7 @@ pub(super) struct ExtractTakes {
     /// Program for which the files are written: unity, unreal, maya or blender, for .fbx
     #[arg(long, value_name = "PRESET")]
     preset: Option<String>,
-    /// Where images are written, for .fbx: in the file, or as files beside it, whose names begin with its own [default: embedded]
+    /// Place of the images, for .fbx: in the file, or in files next to it, whose names begin with its own [default: embedded]
     #[arg(long, value_name = "PLACE", value_enum)]
     textures: Option<TextureChoice>,
     /// Leave out meshes, materials and images
