@@ -2,6 +2,7 @@
 //! `-- editor/frame` for the cases whose names contain this. `-- --record` writes the files in `results` and the tables of
 //! `README.md`; `-- --record editor/frame` writes one file.
 
+mod convert;
 mod edits;
 mod frame;
 mod report;
@@ -20,5 +21,6 @@ fn main() -> ExitCode {
         bench.file("timeline", timeline::all);
         bench.file("save", save::all);
         bench.file("frame", frame::all);
+        bench.file("convert", convert::all);
     })
 }

@@ -1,5 +1,4 @@
-//! Images and meshes in formats that glTF allows by an extension: WebP is read and written, KTX 2 has a fallback or is left
-//! out, Draco is refused where there is nothing else.
+//! Images in formats that glTF allows by an extension: WebP is read and written, KTX 2 has a fallback or is left out.
 
 use crate::fixture::Fixture;
 use dragonfly_anim::data::ModelData;
@@ -102,19 +101,4 @@ fn a_texture_of_an_image_that_is_not_there_is_an_error() {
     let mut fixture = with_image("EXT_texture_webp", &decoded(ONE_PIXEL[0]), "image/webp");
     fixture.set("/textures/0/extensions/EXT_texture_webp", Value::Null);
     assert_eq!(image_of(&imported(&fixture).model), Some(0));
-}
-
-#[test]
-fn meshes_compressed_with_draco_are_refused_unless_there_is_uncompressed_data() {
-    const DRACO: &str = "KHR_draco_mesh_compression";
-    let mut fixture = Fixture::new();
-    fixture.set("/extensionsUsed", json!([DRACO]));
-    let object = json!({"bufferView": 0, "attributes": {"POSITION": 0}});
-    fixture.set(&format!("/meshes/0/primitives/0/extensions/{DRACO}"), object);
-    let got = imported(&fixture);
-    assert_eq!(got.model, imported(&Fixture::new()).model);
-    assert!(got.warnings.len() == 1 && got.warnings[0].text.contains("uncompressed"), "{:?}", got.warnings);
-    fixture.set("/extensionsRequired", json!([DRACO]));
-    let error = read("a.glb", &fixture.glb(), &NoFiles, &ReadOptions::default()).unwrap_err().to_string();
-    assert!(error.contains("Draco") && error.contains(DRACO) && error.contains("not supported"), "{error}");
 }

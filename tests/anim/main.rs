@@ -30,6 +30,7 @@ mod determinism;
 mod dfm;
 mod docs;
 mod doors;
+mod draco;
 mod examples;
 mod explain;
 mod explain_damage;

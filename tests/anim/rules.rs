@@ -107,10 +107,12 @@ const BAD: &[(&str, Consequence, Bad)] = &[
     ("UNSUPPORTED_EXTENSION", Refuse, Edit(|f| _ = f.set("/asset/version", json!("1.0")))),
     ("UNSUPPORTED_EXTENSION", Refuse, Edit(|f| _ = f.set("/asset/minVersion", json!("3.0")))),
     (
-        "UNSUPPORTED_EXTENSION",
+        "DRACO_INVALID",
         Refuse,
         Edit(|f| {
-            f.set("/extensionsUsed", json!(["KHR_draco_mesh_compression"])).remove("/accessors/0/bufferView");
+            let object = json!({"bufferView": 0, "attributes": {"POSITION": 0}});
+            f.set("/meshes/0/primitives/0/extensions", json!({"KHR_draco_mesh_compression": object}));
+            f.remove("/accessors/0/bufferView");
         }),
     ),
     (

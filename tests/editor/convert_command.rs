@@ -187,6 +187,23 @@ fn an_open_job_description_runs_in_its_reference_program() {
 }
 
 #[test]
+fn a_take_is_written_as_a_sequence_of_files_of_a_format_without_animation() {
+    let folder = Folder::new("convert-sequence");
+    let (fox, output) = (data("gltf/Fox.glb"), folder.join("Fox.obj"));
+    let listed = run(["convert", text(&fox), "-o", text(&output), "--bake", "12", "--dry-run"]).expect(0);
+    assert!(listed.text().contains("beside it: Fox_0041.obj"), "{}", listed.text());
+    assert!(!output.exists());
+    run(["convert", text(&fox), "-o", text(&output), "--bake", "12"]).expect(0);
+    // The first take has 3.417 seconds: 41 frames after the one at its start.
+    let is_frame = |name: &String| name.starts_with("Fox_0") && name.ends_with(".obj");
+    assert_eq!(files_below(folder.path()).iter().filter(|name| is_frame(name)).count(), 42);
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a file");
+    assert_eq!(read("Fox_0000.obj"), read("Fox.obj"));
+    assert_ne!(read("Fox_0001.obj"), read("Fox.obj"));
+    assert!(read("Fox_0041.obj").contains("mtllib Fox.mtl"));
+}
+
+#[test]
 fn curves_are_written_as_tables_and_takes_are_baked_at_a_rate() {
     let folder = Folder::new("convert-curves");
     let (csv, json) = (folder.join("Fox.csv"), folder.join("Fox.JSON"));

@@ -5,6 +5,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::prompts::Overlay;
 use dragonfly::panels::{Effect, FileAction, Request};
 use dragonfly_document::{DocumentMessage, ExportContent, ExportOrder, ExportReport, ExportedFile};
+use dragonfly_fbx::TexturePlacement;
 use dragonfly_kit::document::fixture;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -43,7 +44,8 @@ fn choose(window: &mut Window, list: &str, entry: &str) {
 }
 
 fn answer(window: &mut Window, order: &ExportOrder, replaces: bool, lost: &[&str]) {
-    let file = ExportedFile { path: order.output.clone(), bytes: 1234, replaces };
+    let beside = vec!["Full_skin.png".to_owned()];
+    let file = ExportedFile { path: order.output.clone(), bytes: 1234, beside, replaces };
     let lost = lost.iter().map(|&text| text.to_owned()).collect();
     window.state_mut().state.exported(order.clone(), Ok(ExportReport { files: vec![file], lost }));
     window.run_steps(4);
@@ -82,14 +84,19 @@ fn the_dialog_shows_what_is_lost_and_sends_the_order_that_was_chosen() {
 }
 
 #[test]
-fn a_preset_belongs_to_its_format_and_an_existing_file_is_replaced_knowingly() {
+fn a_preset_and_a_place_of_textures_belong_to_their_format_and_an_existing_file_is_replaced_knowingly() {
     let mut window = open();
     choose(&mut window, "Format", "Autodesk FBX");
     choose(&mut window, "Preset", "Unity");
     let order = orders(&mut window).pop().expect("an order");
-    assert_eq!(order.preset.as_deref(), Some("unity"));
+    assert_eq!((order.preset.as_deref(), order.textures), (Some("unity"), Some(TexturePlacement::Embedded)));
+    choose(&mut window, "Textures", "Files beside it");
+    let order = orders(&mut window).pop().expect("an order");
+    assert_eq!((order.preset.as_deref(), order.textures), (Some("unity"), Some(TexturePlacement::Beside)));
     answer(&mut window, &order, true, &[]);
     assert!(window.query_by_label("Replace").is_some() && window.query_by_label("Nothing is lost").is_some());
+    assert!(window.query_by_label("With Full_skin.png beside it").is_some());
     choose(&mut window, "Format", "Dragonfly model");
-    assert_eq!(orders(&mut window).pop().expect("an order").preset, None);
+    let order = orders(&mut window).pop().expect("an order");
+    assert_eq!((order.preset, order.textures), (None, None));
 }

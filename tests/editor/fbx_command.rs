@@ -64,6 +64,58 @@ fn models_are_written_as_fbx_for_another_program() {
 }
 
 #[test]
+fn textures_are_written_beside_an_fbx_file_where_the_user_wants_them_and_listed_before() {
+    let folder = Folder::new("fbx-textures");
+    let fox = data("gltf/Fox.glb");
+    let output = folder.join("Hero.fbx");
+    let beside = |more: &[&str]| {
+        let mut words = vec!["convert", text(&fox), "-o", text(&output), "--textures", "beside"];
+        words.extend(more);
+        run(words)
+    };
+    let listed = beside(&["--dry-run", "--json"]).expect(0).json();
+    let name = listed["files"][0]["beside"][0]["name"].as_str().expect("a name").to_owned();
+    assert!(name.starts_with("Hero_") && name.ends_with(".png"), "{name}");
+    let printed = beside(&["--dry-run"]).expect(0);
+    assert!(printed.text().contains(&format!("beside it: {name}")), "{}", printed.text());
+    assert!(!output.exists() && !folder.join(&name).exists());
+    beside(&[]).expect(0);
+    let image = std::fs::read(folder.join(&name)).expect("the image");
+    assert!(image.starts_with(b"\x89PNG"));
+    let small = std::fs::metadata(&output).expect("the file").len();
+    // The parser in its cage asks for the image by name.
+    run(["convert", text(&output), "-o", text(&folder.join("again.glb"))]).expect(0);
+    let again = std::fs::read(folder.join("again.glb")).expect("a file");
+    assert!(again.windows(image.len()).any(|bytes| bytes == image), "the image is in the new file");
+    run(["convert", text(&fox), "-o", text(&output)]).expect(0);
+    let large = std::fs::metadata(&output).expect("the file").len();
+    assert!(large > small + image.len() as u64 / 2, "{small}, then {large}");
+    let extracted = folder.join("clips");
+    let words = [
+        "takes",
+        "extract",
+        text(&fox),
+        "--each",
+        "--to",
+        "fbx",
+        "--textures",
+        "beside",
+        "-o",
+        text(&extracted),
+    ];
+    let printed = run(words).expect(0);
+    assert!(
+        printed.stderr.contains("Fox@Walk_") && extracted.join("Fox@Walk.fbx").is_file(),
+        "{}",
+        printed.stderr
+    );
+    let none =
+        run(["convert", text(&fox), "-o", text(&folder.join("a.glb")), "--textures", "beside"]).expect(2);
+    assert!(none.stderr.contains("--textures") && none.stderr.contains(".fbx files only"), "{}", none.stderr);
+    assert!(!folder.join("a.glb").exists());
+}
+
+#[test]
 fn edits_of_a_format_that_can_only_be_read_name_another_way() {
     let folder = Folder::new("fbx-edit");
     let cube = data("fbx/maya_blend_shape_cube_7700_binary.fbx");

@@ -76,6 +76,9 @@ fn the_dialog_opens_the_file_again_with_the_chosen_options() {
     harness.run_steps(4);
     harness.state_mut().state.execute(Request::Command(Id::ImportOptions));
     harness.run_steps(4);
+    // The dialog shows guesses and choices, and nothing about formats that have no choice.
+    assert!(harness.query_by_label_contains("(guessed), Z up (chosen)").is_some());
+    assert!(harness.query_by_label_contains("have no effect").is_none());
     harness.get_by_role_and_label(Role::ComboBox, "Unit").click();
     harness.run_steps(4);
     harness.get_by_label("Centimeter").click();

@@ -121,6 +121,7 @@ mod viewport_tools_path;
 mod viewport_tools_rig;
 mod window;
 mod window_bone_rotation;
+mod window_clips;
 mod window_dialog;
 mod window_dragging;
 mod window_drop;

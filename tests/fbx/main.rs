@@ -12,6 +12,7 @@ mod soundness;
 mod support;
 mod written;
 mod written_crafted;
+mod written_textures;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

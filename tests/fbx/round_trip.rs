@@ -5,7 +5,7 @@ use dragonfly_anim::data::{AlphaMode, ModelData, TextureRef};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::Warning;
 use dragonfly_fbx::code::FBX_KEYS;
-use dragonfly_fbx::{ExportPreset, export_with};
+use dragonfly_fbx::{ExportPreset, FbxOptions, export_with};
 use glam::{Mat4, Vec3};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
@@ -25,8 +25,9 @@ type Corner = (usize, usize);
 
 impl RoundTrip {
     /// Writes a model and reads the file again.
-    pub(crate) fn of(model: ModelData, preset: Option<&ExportPreset>) -> Self {
-        let plan = export_with(&model, "model.fbx", preset).expect("a model that can be written");
+    pub(crate) fn of(model: ModelData, preset: Option<&'static ExportPreset>) -> Self {
+        let plan = export_with(&model, "model.fbx", &FbxOptions { preset, ..FbxOptions::default() })
+            .expect("a model that can be written");
         assert_eq!(plan.files.len(), 1, "images are in the file");
         let bytes = plan.files[0].bytes.clone();
         let read = read_here(&bytes).expect("a file that can be read");

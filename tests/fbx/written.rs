@@ -5,7 +5,7 @@ use crate::support::{data, read_here};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{AssetError, AssetFs, Formats, ReadOptions};
 use dragonfly_anim::frames::frame_rate;
-use dragonfly_fbx::{export_with, looks_like_fbx, preset};
+use dragonfly_fbx::{FbxOptions, export_with, looks_like_fbx, preset};
 use dragonfly_kit::skip::models;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -213,6 +213,7 @@ fn the_unreal_preset_keeps_the_origins_of_bones_in_every_frame() {
 #[test]
 fn the_same_model_gives_the_same_bytes() {
     let model = model(&data().join("collection/RobotExpressive.glb")).expect("a model");
-    let write = || export_with(&model, "a.fbx", None).expect("a file").files[0].bytes.clone();
+    let write =
+        || export_with(&model, "a.fbx", &FbxOptions::default()).expect("a file").files[0].bytes.clone();
     assert!(write() == write());
 }

@@ -5,11 +5,12 @@ use super::source::{LoadError, file_name};
 use super::{Cancel, Folder, make_folder, read_file};
 use dragonfly_anim::bake::baked;
 use dragonfly_anim::data::ModelData;
+use dragonfly_anim::format::obj::{OBJ, write_sequence};
 use dragonfly_anim::format::{
     Conventions, Conversion, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_fbx::{ExportPreset, FBX, PRESETS, export_with};
+use dragonfly_fbx::{ExportPreset, FBX, FbxOptions, PRESETS, TexturePlacement, export_with};
 use dragonfly_store::{folder_of, replace};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,7 +27,9 @@ pub struct ConversionOrder {
     pub conventions: Conventions,
     /// Name of the preset of the format, see [`export`].
     pub preset: Option<String>,
-    /// Frames per second of keys that replace those of the takes, see [`baked`].
+    /// Place of the images, for formats that leave the choice, see [`places_textures`].
+    pub textures: Option<TexturePlacement>,
+    /// Frames per second of keys that replace those of the takes, see [`baked`]; for OBJ, of the files, see [`write_sequence`].
     pub bake: Option<f32>,
     /// Whether to write the file, or only to find out what would be lost.
     pub is_written: bool,
@@ -39,6 +42,8 @@ pub struct ConvertedFile {
     pub from: &'static str,
     /// Size of the new file in bytes.
     pub bytes: usize,
+    /// Names and sizes of the files that it refers to, which are written next to it.
+    pub beside: Vec<(String, usize)>,
     /// Units, axes and frame rate of the input, and where they are known from.
     pub conversion: Conversion,
     /// Content of the input that was corrected or not read, one sentence each.
@@ -47,6 +52,15 @@ pub struct ConvertedFile {
     pub lost: Vec<String>,
     /// Number of takes.
     pub takes: usize,
+}
+
+/// A file that was converted and is not yet written.
+#[derive(Debug)]
+pub struct PreparedConversion {
+    output: PathBuf,
+    is_written: bool,
+    plan: SavePlan,
+    converted: ConvertedFile,
 }
 
 /// The reason why a file was not converted. Nothing was written.
@@ -81,23 +95,48 @@ pub fn export_presets(format: &Format) -> &'static [ExportPreset] {
     if *format == FBX { PRESETS } else { &[] }
 }
 
-/// Writes a model as a new file called `name`, with the preset of the format that has this name.
+/// Returns whether files of a format can contain their images or have them as files next to them.
+pub fn places_textures(format: &Format) -> bool {
+    *format == FBX
+}
+
+/// Writes a model as a new file called `name`, with the preset of the format that has this name, and with its images at the place
+/// `textures`.
 ///
 /// # Errors
 ///
-/// Files of the format are not written, the format has no such preset, or it cannot represent the model.
+/// Files of the format are not written, the format has no such preset or no choice of this kind, or it cannot represent the model.
 pub fn export(
     format: &Format,
     model: &ModelData,
     name: &str,
     preset: Option<&str>,
+    textures: Option<TexturePlacement>,
 ) -> Result<SavePlan, ExportError> {
-    let Some(wanted) = preset else {
+    if preset.is_none() && textures.is_none() {
         let write = format.export.ok_or_else(|| ExportError::new("files of this kind cannot be written"))?;
         return write(model, name);
-    };
-    let found = checked_preset(format, wanted).map_err(ExportError::new)?;
-    export_with(model, name, Some(found))
+    }
+    let preset = preset.map(|wanted| checked_preset(format, wanted)).transpose().map_err(ExportError::new)?;
+    let textures = textures.map(|wanted| checked_textures(format, wanted)).transpose();
+    let textures = textures.map_err(ExportError::new)?.unwrap_or_default();
+    export_with(model, name, &FbxOptions { preset, textures })
+}
+
+/// Returns the placement, if the format leaves the choice.
+///
+/// # Errors
+///
+/// A text that names what files of the format do.
+pub fn checked_textures(format: &Format, wanted: TexturePlacement) -> Result<TexturePlacement, String> {
+    if places_textures(format) {
+        return Ok(wanted);
+    }
+    Err(format!(
+        "the place of textures can be chosen in .{} files only, not in .{}",
+        FBX.extension(),
+        format.extension()
+    ))
 }
 
 /// Returns the preset of a format that has this name.
@@ -121,12 +160,15 @@ pub fn written_extensions() -> String {
     written.iter().map(|format| format!(".{}", format.extension())).collect::<Vec<_>>().join(", ")
 }
 
-/// Reads a file and writes it in another format. Textures are read only from the folder of the file.
+/// Reads a file and converts it, but writes nothing yet. Textures are read only from the folder of the file.
 ///
 /// # Errors
 ///
-/// The input cannot be read, or the output cannot be written; see [`ConversionError`].
-pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile, ConversionError> {
+/// The input cannot be read, or the new format cannot represent it; see [`ConversionError`].
+pub fn prepare_conversion(
+    order: &ConversionOrder,
+    cancel: &Cancel,
+) -> Result<PreparedConversion, ConversionError> {
     let title = file_name(&order.input);
     let formats = formats();
     let target = order.output.extension().and_then(|extension| written_format(extension.to_str()?));
@@ -159,19 +201,43 @@ pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile
             );
         }
     }
-    let plan = export(&target, &imported.model, &name, order.preset.as_deref())
-        .map_err(|error| failed(error.to_string()))?;
-    if order.is_written {
-        write_files(&order.output, &plan)?;
-    }
-    Ok(ConvertedFile {
+    let plan = match order.bake {
+        // A file has one pose, so that frames are files.
+        Some(rate) if target == OBJ => write_sequence(&imported.model, &name, rate),
+        _ => export(&target, &imported.model, &name, order.preset.as_deref(), order.textures),
+    };
+    let plan = plan.map_err(|error| failed(error.to_string()))?;
+    let (main, beside) =
+        plan.files.split_last().map_or((None, &[][..]), |(main, beside)| (Some(main), beside));
+    let converted = ConvertedFile {
         from: imported.format.name,
-        bytes: plan.files.last().map_or(0, |file| file.bytes.len()),
+        bytes: main.map_or(0, |file| file.bytes.len()),
+        beside: beside.iter().map(|file| (file.name.clone(), file.bytes.len())).collect(),
         conversion: imported.conversion,
         warnings: imported.warnings.iter().map(ToString::to_string).collect(),
         lost: plan.lost.iter().map(ToString::to_string).collect(),
         takes: imported.model.animation.takes.len(),
-    })
+    };
+    Ok(PreparedConversion { output: order.output.clone(), is_written: order.is_written, plan, converted })
+}
+
+impl PreparedConversion {
+    /// Returns the size of all files to write, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.plan.files.iter().map(|file| file.bytes.len()).sum()
+    }
+
+    /// Writes the files, unless the order was only to find out what would be lost.
+    ///
+    /// # Errors
+    ///
+    /// The path and the reason.
+    pub fn write(self) -> Result<ConvertedFile, ConversionError> {
+        if self.is_written {
+            write_files(&self.output, &self.plan)?;
+        }
+        Ok(self.converted)
+    }
 }
 
 /// Writes the files of a plan next to `output`, the main file last. Each is replaced atomically.

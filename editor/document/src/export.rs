@@ -1,11 +1,13 @@
 //! Files of other formats from a model: all of it, a part of it, or each take as a file of its own.
 
-use super::conversion::{checked_preset, export, write_files, written_extensions};
+use super::conversion::{checked_preset, checked_textures, export, write_files, written_extensions};
 use super::import;
 use super::make_folder;
 use super::source::file_name;
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
 use dragonfly_anim::format::{Format, SavePlan};
+use dragonfly_fbx::TexturePlacement;
+use dragonfly_store::folder_of;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -32,6 +34,8 @@ pub struct ExportOrder {
     pub output: PathBuf,
     /// Name of the preset: the program for which the files are.
     pub preset: Option<String>,
+    /// Place of the images; the usual one of the format where absent.
+    pub textures: Option<TexturePlacement>,
     /// The part of the model.
     pub content: ExportContent,
     /// Indices of the takes; all where absent.
@@ -47,9 +51,11 @@ pub struct ExportOrder {
 pub struct ExportedFile {
     /// The path.
     pub path: PathBuf,
-    /// Size in bytes.
+    /// Size in bytes, with the files next to it.
     pub bytes: usize,
-    /// Whether a file of this path existed before.
+    /// Names of the files that it refers to, which are written next to it.
+    pub beside: Vec<String>,
+    /// Whether a file of this path, or of one next to it, existed before.
     pub replaces: bool,
 }
 
@@ -99,6 +105,9 @@ pub fn export_files(model: &ModelData, order: &ExportOrder) -> Result<ExportRepo
     if let Some(preset) = &order.preset {
         checked_preset(&format, preset)?;
     }
+    if let Some(textures) = order.textures {
+        checked_textures(&format, textures)?;
+    }
     let takes = &model.animation.takes;
     let takes: Vec<&Arc<Take>> = match (&order.takes, order.content) {
         (_, ExportContent::Model) => Vec::new(),
@@ -108,7 +117,7 @@ pub fn export_files(model: &ModelData, order: &ExportOrder) -> Result<ExportRepo
     let mut report = ExportReport::default();
     let mut write = |path: &Path, takes: &[&Arc<Take>]| {
         let part = part(model, takes, order.content);
-        let plan = export(&format, &part, &file_name(path), order.preset.as_deref())
+        let plan = export(&format, &part, &file_name(path), order.preset.as_deref(), order.textures)
             .map_err(|error| format!("{}: {error}", path.display()))?;
         report.add(path, &plan);
         if order.is_written {
@@ -131,7 +140,11 @@ pub fn export_files(model: &ModelData, order: &ExportOrder) -> Result<ExportRepo
 impl ExportReport {
     fn add(&mut self, path: &Path, plan: &SavePlan) {
         let bytes = plan.files.iter().map(|file| file.bytes.len()).sum();
-        self.files.push(ExportedFile { path: path.to_owned(), bytes, replaces: path.exists() });
+        let count = plan.files.len().saturating_sub(1);
+        let beside: Vec<String> = plan.files.iter().take(count).map(|file| file.name.clone()).collect();
+        let folder = folder_of(path);
+        let replaces = path.exists() || beside.iter().any(|name| folder.join(name).exists());
+        self.files.push(ExportedFile { path: path.to_owned(), bytes, beside, replaces });
         for lost in plan.lost.iter().map(ToString::to_string) {
             if !self.lost.contains(&lost) {
                 self.lost.push(lost);

@@ -77,8 +77,8 @@ pub use cancel::{Cancel, LoadStage, Progress};
 pub use clip_order::ClipOrder;
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
 pub use conversion::{
-    ConversionError, ConversionOrder, ConvertedFile, checked_preset, convert, export, export_presets,
-    write_files, written_extensions,
+    ConversionError, ConversionOrder, ConvertedFile, PreparedConversion, checked_preset, checked_textures,
+    export, export_presets, places_textures, prepare_conversion, write_files, written_extensions,
 };
 pub use editable::{Editable, WrittenFile, make_folder};
 pub use export::{ExportContent, ExportOrder, ExportReport, ExportedFile, export_files};

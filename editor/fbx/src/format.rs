@@ -1,7 +1,7 @@
 //! The row of the format.
 
 use crate::parser::FbxParser;
-use crate::write::export_with;
+use crate::write::{FbxOptions, export_with};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{Format, ImportContext, ImportError, WriteSupport};
 
@@ -16,7 +16,7 @@ pub const FBX: Format = Format {
     sniff: looks_like_fbx,
     read,
     write: WriteSupport::None,
-    export: Some(|model, name| export_with(model, name, None)),
+    export: Some(|model, name| export_with(model, name, &FbxOptions::default())),
 };
 
 /// Start of a binary file.

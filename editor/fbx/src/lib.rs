@@ -31,4 +31,4 @@ mod write;
 pub use answer::{answer_in_process, read_answer, read_in_process};
 pub use format::{FBX, looks_like_fbx};
 pub use parser::FbxParser;
-pub use write::{ExportPreset, PRESETS, export_with, preset};
+pub use write::{ExportPreset, FbxOptions, PRESETS, TexturePlacement, export_with, preset};

@@ -8,9 +8,10 @@ use super::theme::Theme;
 use super::widgets;
 use dragonfly_anim::format::Format;
 use dragonfly_document::{
-    DocumentMessage, ExportContent, ExportOrder, ExportReport, View, export_presets, written_format,
-    written_formats,
+    DocumentMessage, ExportContent, ExportOrder, ExportReport, View, export_presets, places_textures,
+    written_format, written_formats,
 };
+use dragonfly_fbx::TexturePlacement;
 use egui::{Align, Button, ComboBox, Grid, Layout, Margin, RichText, ScrollArea, TextEdit, TextStyle, Ui};
 use std::path::{Path, PathBuf};
 
@@ -37,6 +38,7 @@ pub struct AnsweredExport {
 pub(super) struct ExportDialog {
     path: String,
     preset: Option<&'static str>,
+    textures: TexturePlacement,
     content: ExportContent,
     /// Whether only the take that is shown is written.
     shown_take: bool,
@@ -136,6 +138,18 @@ impl ExportDialog {
                 list.response.accessible_name("Preset");
             });
             ui.end_row();
+            ui.label("Textures");
+            ui.add_enabled_ui(format.as_ref().is_some_and(places_textures), |ui| {
+                let list =
+                    ComboBox::from_id_salt("textures").selected_text(self.textures.title()).width(220.0);
+                let list = list.show_ui(ui, |ui| {
+                    for placement in TexturePlacement::ALL {
+                        ui.selectable_value(&mut self.textures, placement, placement.title());
+                    }
+                });
+                list.response.accessible_name("Textures");
+            });
+            ui.end_row();
             ui.label("Content");
             let text =
                 CONTENTS.iter().find(|(content, _)| *content == self.content).map_or("", |(_, text)| text);
@@ -182,6 +196,7 @@ impl ExportDialog {
         ExportOrder {
             output: PathBuf::from(self.path.trim().trim_matches('"')),
             preset: self.preset.map(str::to_owned),
+            textures: self.format().as_ref().is_some_and(places_textures).then_some(self.textures),
             content: self.content,
             takes: shown.map(|take| vec![take]),
             each: self.each && self.content != ExportContent::Model,
@@ -224,6 +239,9 @@ impl ExportDialog {
                 let files = widgets::count(report.files.len(), "file", "files");
                 let bytes: usize = report.files.iter().map(|file| file.bytes).sum();
                 line(ui, &format!("{files}, {} KB", widgets::grouped(bytes.div_ceil(1000))), theme.text);
+                for name in report.files.iter().flat_map(|file| &file.beside) {
+                    line(ui, &format!("With {name} beside it"), theme.weak);
+                }
                 if report.lost.is_empty() {
                     line(ui, "Nothing is lost", theme.weak);
                 }

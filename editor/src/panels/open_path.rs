@@ -5,8 +5,10 @@ use super::request::{FileAction, Request};
 use super::style::GRID;
 use super::theme::Theme;
 use super::widgets;
+use dragonfly_anim::format::dfm::DFM;
+use dragonfly_anim::format::gltf::{GLB, GLTF, VRMA};
 use dragonfly_anim::format::{Conventions, Handedness, UpAxis};
-use dragonfly_document::{DocumentMessage, Source, View};
+use dragonfly_document::{DocumentMessage, LoadedModel, Source, View};
 use egui::{
     Align, Button, ComboBox, DragValue, Grid, Key, Layout, Margin, RichText, TextEdit, TextStyle, Ui,
 };
@@ -58,7 +60,8 @@ impl OpenPathDialog {
         let entered = self.field(ui, fresh);
         if used != PathUse::Compare {
             ui.add_space(GRID);
-            self.options(ui);
+            let view = context.view.filter(|_| used == PathUse::Again);
+            self.options(ui, view.map(|view| &*view.loaded));
         }
         ui.add_space(GRID);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -110,11 +113,21 @@ impl OpenPathDialog {
         response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
     }
 
-    fn options(&mut self, ui: &mut Ui) {
+    /// Draws the options, and how the file was read that is opened again.
+    fn options(&mut self, ui: &mut Ui, again: Option<&LoadedModel>) {
         let weak = Theme::of(ui).weak;
-        let text =
-            "glTF and Dragonfly files state their units and axes; these options have no effect on them.";
-        ui.label(RichText::new(text).small().color(weak));
+        let mut line = |text: &str| _ = ui.label(RichText::new(text).small().color(weak));
+        if let Some(loaded) = again {
+            line(&format!("Read as: {}", loaded.conversion));
+        }
+        let states_units = |loaded: &LoadedModel| {
+            loaded.format.is_some_and(|format| [GLB, GLTF, VRMA, DFM].contains(&format))
+        };
+        if again.is_none_or(states_units) {
+            line(
+                "glTF and Dragonfly files state their units and axes; these options have no effect on them.",
+            );
+        }
         Grid::new("import options").num_columns(3).spacing([12.0, 8.0]).show(ui, |ui| {
             ui.label("Unit");
             self.unit(ui);

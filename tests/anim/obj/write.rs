@@ -82,3 +82,26 @@ fn names_and_values_of_materials_read_back() {
     );
     assert!(ours.colors.iter().zip(&theirs.colors).all(|(a, b)| (*a - *b).length() < 1e-6));
 }
+
+#[test]
+fn every_frame_of_a_sequence_is_the_pose_at_its_time_and_too_many_are_refused() {
+    let door = TestFolder(crate::doors::data().join("gltf"));
+    let bytes = std::fs::read(crate::doors::data().join("gltf/Fox.glb")).unwrap();
+    let model = read("Fox.glb", &bytes, &door, &ReadOptions::default()).unwrap().model;
+    let plan = obj::write_sequence(&model, "Fox.obj", 10.0).unwrap();
+    let count = (model.animation.takes[0].length * 10.0).floor() as usize + 1;
+    let is_frame = |name: &str| name.starts_with("Fox_") && name.ends_with(".obj");
+    assert_eq!(plan.files.iter().filter(|file| is_frame(&file.name)).count(), count);
+    assert_eq!(plan.files.last().unwrap().name, "Fox.obj");
+    assert_eq!(plan.files.iter().filter(|file| file.name.ends_with(".mtl")).count(), 1);
+    let start = model.animation.takes[0].start;
+    let mut evaluator = Evaluator::new(Arc::new(model.clone()));
+    for frame in [0, 7, count - 1] {
+        evaluator.pose(Some(0), start + frame as f32 / 10.0);
+        let expected = obj::write(&evaluator, "Fox").files.pop().unwrap().bytes;
+        let file = plan.files.iter().find(|file| file.name == format!("Fox_{frame:04}.obj")).unwrap();
+        assert!(file.bytes == expected, "frame {frame}");
+    }
+    let error = obj::write_sequence(&model, "Fox.obj", 1e9).unwrap_err();
+    assert!(error.to_string().contains("fewer frames per second"), "{error}");
+}

@@ -31,6 +31,19 @@ pub fn mutants() -> usize {
     if takes_long() { 2_000_000 } else { 20_000 }
 }
 
+/// Returns the number of the first mutant to try: 0, or that in the environment variable `DRAGONFLY_FIRST`, with which a long run that
+/// was stopped is continued. The mutants before it are made, because each one depends on them, but not tried.
+pub fn first_mutant() -> usize {
+    std::env::var("DRAGONFLY_FIRST").ok().and_then(|number| number.parse().ok()).unwrap_or(0)
+}
+
+/// Prints how far a long run of mutants has come, every 10,000 mutants; shown with `--nocapture`.
+pub fn print_progress(number: usize) {
+    if takes_long() && number.is_multiple_of(10_000) {
+        println!("{number} of {} tried", mutants());
+    }
+}
+
 /// Returns mutants of files: a few random changes each, all derived from one seed.
 pub struct Mutator<'a> {
     random: Random,

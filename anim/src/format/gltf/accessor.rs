@@ -2,6 +2,7 @@
 
 use super::buffer::BufferData;
 use super::check as code;
+use super::draco::DecodedAccessors;
 use super::pointer::ChannelPointers;
 use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{CANCEL_EVERY, VERTICES, ZERO_ELEMENTS};
@@ -16,6 +17,8 @@ pub(super) struct GltfDocument<'a> {
     pub(super) buffers: Vec<BufferData<'a>>,
     /// Bytes of the compressed views, by number.
     pub(super) decoded: HashMap<usize, Vec<u8>>,
+    /// Bytes of the accessors of compressed primitives.
+    pub(super) unpacked: DecodedAccessors,
     /// Targets of channels that are JSON pointers.
     pub(super) pointers: ChannelPointers,
     /// Total number of bytes read.
@@ -127,15 +130,19 @@ impl<'a> GltfDocument<'a> {
             return Err(invalid(Place::Pointer(from.to_owned()), wrong, reason));
         }
         let size = format.0.size() * format.1.multiplicity();
-        let count = self.count_of(accessor, &path)?;
-        let base = match accessor.buffer_view {
-            Some(view) => {
+        let count = self.count_of(accessor, number, &path)?;
+        let base = match (self.unpacked.get(&number), accessor.buffer_view) {
+            (Some(unpacked), _) => {
+                let bytes = unpacked.as_ref().map_err(Clone::clone)?;
+                Some(strided(bytes, USize64(0), None, size, count, &path)?)
+            }
+            (None, Some(view)) => {
                 let (bytes, stride) = self.view(view, &format!("{path}/bufferView"))?;
                 let offset = accessor.byte_offset.unwrap_or_default();
                 self.check_alignment(offset, format.0, &path);
                 Some(strided(bytes, offset, stride, size, count, &path)?)
             }
-            None => None,
+            (None, None) => None,
         };
         let sparse = match &accessor.sparse {
             Some(_) => Some(self.sparse_of(accessor, count, size, &path)?),
@@ -167,9 +174,10 @@ impl<'a> GltfDocument<'a> {
     }
 
     /// Returns the number of elements. Without a buffer view the number is limited by the size of the input.
-    fn count_of(&self, accessor: &Accessor, path: &str) -> Result<usize, ImportError> {
+    fn count_of(&self, accessor: &Accessor, number: usize, path: &str) -> Result<usize, ImportError> {
         let limit = match accessor.buffer_view {
             Some(_) => usize::MAX,
+            None if self.unpacked.contains_key(&number) => usize::MAX,
             None => self.bytes.clamp(ZERO_ELEMENTS, VERTICES),
         };
         to_usize(accessor.count.0).filter(|&count| count <= limit).ok_or_else(|| ImportError::TooLarge {

@@ -70,6 +70,7 @@ checks! {
     Refuse IO_ERROR "A referenced file is missing or may not be read.";
     Refuse BUFFER_VIEW_TOO_LONG "A buffer view reaches past the end of its buffer.";
     Refuse MESHOPT_INVALID "The compressed data of a buffer view cannot be decoded.";
+    Refuse DRACO_INVALID "The compressed data of a primitive cannot be decoded.";
     Warn BUFFER_VIEW_INVALID_BYTE_STRIDE "A byte stride is outside 4..252 or not a multiple of 4.";
 
     Refuse ACCESSOR_TOO_LONG "An accessor reaches past the end of its buffer view.";

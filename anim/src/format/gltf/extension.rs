@@ -1,6 +1,6 @@
 //! Supported extensions, and the handling of all others.
 
-use super::{avatar, check as code, material};
+use super::{avatar, check as code, draco, material};
 use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
 
@@ -8,6 +8,7 @@ use gltf::json;
 pub const SUPPORTED: &[&str] = &[
     material::BASISU,
     material::WEBP,
+    draco::NAME,
     "EXT_meshopt_compression",
     "KHR_animation_pointer",
     "KHR_materials_emissive_strength",
@@ -20,10 +21,6 @@ pub const SUPPORTED: &[&str] = &[
     avatar::VRM_ANIMATION,
 ];
 
-/// Stores the data of accessors elsewhere. A file with accessors that have no data of their own needs this extension
-/// even if it does not list it as required.
-const DRACO: &str = "KHR_draco_mesh_compression";
-
 /// Refuses required extensions that are not supported; adds a warning for each other unsupported extension.
 pub(super) fn check(root: &json::Root, context: &ImportContext<'_>) -> Result<(), ImportError> {
     for (index, name) in root.extensions_required.iter().enumerate() {
@@ -35,15 +32,10 @@ pub(super) fn check(root: &json::Root, context: &ImportContext<'_>) -> Result<()
     }
     for (index, name) in root.extensions_used.iter().enumerate() {
         context.work(1)?;
-        if name == DRACO && root.accessors.iter().any(|a| a.buffer_view.is_none() && a.sparse.is_none()) {
-            let place = Place::Pointer(format!("/extensionsUsed/{index}"));
-            return Err(unsupported(place, name));
-        }
         if !SUPPORTED.contains(&name.as_str()) {
             let place = Place::Pointer(format!("/extensionsUsed/{index}"));
             let text = match name.as_str() {
                 "KHR_lights_punctual" => "the file's lights are not shown".to_owned(),
-                DRACO => format!("{name} is not supported; the meshes are read from their uncompressed data"),
                 _ => format!("{name} is not shown"),
             };
             context.warn(place, code::UNSUPPORTED_EXTENSION, text);
@@ -53,9 +45,5 @@ pub(super) fn check(root: &json::Root, context: &ImportContext<'_>) -> Result<()
 }
 
 fn unsupported(place: Place, name: &str) -> ImportError {
-    let feature = match name {
-        DRACO => format!("Draco (the extension {name}), with which its meshes are compressed"),
-        _ => format!("the extension {name}"),
-    };
-    ImportError::Unsupported { place, feature }
+    ImportError::Unsupported { place, feature: format!("the extension {name}") }
 }

@@ -4,7 +4,7 @@
 //! panic, hang or allocate gigabytes on small files, so this module has its own: `accessor` is the only module that
 //! reads a buffer, `graph` the only one that walks the nodes.
 //!
-//! Reading order: `survey` and `document` (text → model), `buffer`, `meshopt`, `accessor`, `graph`, `node`, `skin`, `mesh`,
+//! Reading order: `survey` and `document` (text → model), `buffer`, `meshopt`, `draco`, `accessor`, `graph`, `node`, `skin`, `mesh`,
 //! `animation`, `scene`. [`check`] lists every rule.
 
 mod accessor;
@@ -14,6 +14,7 @@ mod avatar;
 mod buffer;
 pub mod check;
 mod document;
+mod draco;
 mod extension;
 mod extras;
 mod glb;
@@ -46,6 +47,7 @@ pub use material::phong;
 use super::{ExportError, Format, ImportContext, ImportError, Place, SavePlan, WriteSupport};
 use crate::data::{AnimationData, ModelData};
 use accessor::GltfDocument;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// glTF 2.0 in one binary container, `.glb`.
@@ -124,7 +126,10 @@ fn read_document(
     let buffers = buffer::load(&root, bin, &fallbacks, context)?;
     let decoded = meshopt::decode(&root, &buffers, context)?;
     let bytes = size.saturating_add(buffers.iter().map(|buffer| buffer.bytes().len()).sum());
-    let document = GltfDocument { root: &root, buffers, decoded, pointers, bytes, context };
+    let unpacked = HashMap::new();
+    let mut document = GltfDocument { root: &root, buffers, decoded, unpacked, pointers, bytes, context };
+    document.unpacked = draco::decode(&document)?;
+    let document = document;
 
     let mut is_bone = context.filled(&Place::Pointer("/nodes".to_owned()), root.nodes.len(), false)?;
     skin::mark_joints(&document, &mut is_bone)?;

@@ -9,8 +9,8 @@
 //!
 //! The format has no units and no axes; meters, Y up and right-handed are assumed unless the user chooses others.
 //!
-//! [`write`](fn@write) makes the files of one pose of any model. An OBJ file cannot hold an animation, so a model is never saved as one by
-//! itself.
+//! [`write`](fn@write) makes the files of one pose of any model, [`write_sequence`] those of every frame of a take. An OBJ file cannot hold an
+//! animation, so a model is never saved as one by itself.
 
 pub mod check;
 mod faces;
@@ -18,9 +18,11 @@ mod lines;
 mod materials;
 mod meshes;
 mod quick;
+mod sequence;
 mod vertices;
 mod write;
 
+pub use sequence::write_sequence;
 pub use write::write;
 
 use super::decimal::parse_number;

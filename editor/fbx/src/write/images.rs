@@ -1,10 +1,12 @@
-//! Images in the file, and the textures that use them.
+//! Images in the file or next to it, and the textures that use them.
 
 use super::losses::FbxLosses;
 use super::names::UsedNames;
 use super::node::{FbxNode, bytes_node, setting};
 use super::scene::{ObjectId, SceneWriter};
 use dragonfly_anim::data::{Filter, Image, TextureRef, TextureTransform, Wrap};
+use dragonfly_anim::format::OutputFile;
+use std::collections::HashSet;
 
 /// Names of the two sets of texture coordinates.
 pub(super) const UV_SETS: [&str; 2] = ["UVMap", "UVMap2"];
@@ -17,6 +19,61 @@ struct WrittenImage {
 
 /// The images of a model; `None` for one that has neither bytes nor a name.
 pub(super) struct WrittenImages(Vec<Option<WrittenImage>>);
+
+/// Destination of the bytes of images.
+pub(super) enum ImageTarget<'a> {
+    /// Into the file.
+    Embedded,
+    /// Into files next to a file whose name without its extension is `stem`.
+    Beside {
+        stem: &'a str,
+        files: Vec<OutputFile>,
+        /// Names of the files in lower case: some file systems do not distinguish capitals.
+        used: HashSet<String>,
+    },
+}
+
+impl<'a> ImageTarget<'a> {
+    /// Returns a target without files.
+    pub(super) fn beside(stem: &'a str) -> Self {
+        Self::Beside { stem, files: Vec::new(), used: HashSet::new() }
+    }
+
+    /// Returns the files that are not in the file itself.
+    pub(super) fn into_files(self) -> Vec<OutputFile> {
+        match self {
+            Self::Embedded => Vec::new(),
+            Self::Beside { files, .. } => files,
+        }
+    }
+
+    /// Stores the bytes of an image. Returns its node where it is in the file, and the name under which programs find it.
+    fn store(&mut self, wanted: String, bytes: &[u8]) -> (Option<FbxNode>, String) {
+        match self {
+            Self::Embedded => (Some(bytes_node("Content", bytes)), wanted),
+            Self::Beside { stem, files, used } => {
+                let name = name_beside(stem, &wanted, used);
+                used.insert(name.to_lowercase());
+                files.push(OutputFile { name: name.clone(), bytes: bytes.to_vec() });
+                (None, name)
+            }
+        }
+    }
+}
+
+/// Returns the name of an image next to a file: it begins with the name of that file, so that the images of several files in one
+/// folder do not replace each other.
+fn name_beside(stem: &str, wanted: &str, used: &HashSet<String>) -> String {
+    let begins = wanted.strip_prefix(stem).is_some_and(|rest| rest.starts_with(['_', '.']));
+    let wanted = if begins { wanted.to_owned() } else { format!("{stem}_{wanted}") };
+    let (start, end) = wanted.split_at(wanted.rfind('.').unwrap_or(wanted.len()));
+    let numbered = |number: usize| match number {
+        1 => wanted.clone(),
+        number => format!("{start}_{number}{end}"),
+    };
+    let is_new = |name: &String| !used.contains(&name.to_lowercase());
+    (1..).map(numbered).find(is_new).unwrap_or_default()
+}
 
 /// Returns the name of the file of an image.
 fn file_name(image: &Image, number: usize) -> String {
@@ -37,8 +94,13 @@ fn file_name(image: &Image, number: usize) -> String {
     if has { name } else { format!("{name}.{}", extensions[0]) }
 }
 
-/// Adds all images with their bytes.
-pub(super) fn add_images(scene: &mut SceneWriter, images: &[Image], losses: &mut FbxLosses) -> WrittenImages {
+/// Adds all images, and stores their bytes in the target.
+pub(super) fn add_images(
+    scene: &mut SceneWriter,
+    images: &[Image],
+    target: &mut ImageTarget<'_>,
+    losses: &mut FbxLosses,
+) -> WrittenImages {
     let mut used = UsedNames::default();
     let mut written = Vec::with_capacity(images.len());
     for (number, image) in images.iter().enumerate() {
@@ -49,7 +111,11 @@ pub(super) fn add_images(scene: &mut SceneWriter, images: &[Image], losses: &mut
         }
         let file_name = file_name(image, number);
         let at = file_name.rfind('.').unwrap_or(file_name.len());
-        let file_name = used.unique(&file_name[..at], &file_name[at..]);
+        let wanted = used.unique(&file_name[..at], &file_name[at..]);
+        let (content, file_name) = match &*image.bytes {
+            [] => (None, wanted),
+            bytes => target.store(wanted, bytes),
+        };
         let properties = FbxNode::new("Properties70")
             .containing([setting("Path", "KString", "XRefUrl", "").with(file_name.as_str())]);
         let mut children = vec![
@@ -59,9 +125,7 @@ pub(super) fn add_images(scene: &mut SceneWriter, images: &[Image], losses: &mut
             FbxNode::new("Filename").with(file_name.as_str()),
             FbxNode::new("RelativeFilename").with(file_name.as_str()),
         ];
-        if !image.bytes.is_empty() {
-            children.push(bytes_node("Content", &image.bytes));
-        }
+        children.extend(content);
         let video = scene.object("Video", &file_name, ("Video", "Clip"), children);
         written.push(Some(WrittenImage { video, file_name }));
     }

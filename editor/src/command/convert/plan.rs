@@ -1,7 +1,6 @@
 //! The files that a conversion reads, and those that it writes.
 
 use super::super::Failure;
-use dragonfly_anim::format::Conventions;
 use dragonfly_document::{ConversionOrder, formats};
 use std::collections::HashMap;
 use std::fs;
@@ -27,15 +26,9 @@ impl PlannedFile {
         matches!((changed(&self.input), changed(&self.output)), (Some(input), Some(output)) if output >= input)
     }
 
-    pub(super) fn order(
-        &self,
-        conventions: Conventions,
-        preset: Option<String>,
-        bake: Option<f32>,
-        is_written: bool,
-    ) -> ConversionOrder {
-        let (input, output) = (self.input.clone(), self.output.clone());
-        ConversionOrder { input, output, conventions, preset, bake, is_written }
+    /// Returns the order of this file with the choices of another one.
+    pub(super) fn order(&self, choices: &ConversionOrder) -> ConversionOrder {
+        ConversionOrder { input: self.input.clone(), output: self.output.clone(), ..choices.clone() }
     }
 }
 

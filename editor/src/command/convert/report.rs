@@ -3,9 +3,12 @@
 use super::super::choice::plain;
 use super::super::output::{print, print_json};
 use super::super::{Failure, tell};
-use super::FileResult;
 use super::plan::PlannedFile;
+use dragonfly_document::ConvertedFile;
 use serde::Serialize;
+
+/// The result of a file: converted, or skipped because its output was there.
+pub(super) type FileResult = Result<Option<ConvertedFile>, String>;
 
 /// The result of one file.
 pub(super) struct FileOutcome {
@@ -32,6 +35,9 @@ struct ReportedFile {
     from: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     bytes: Option<usize>,
+    /// Names of the files that are written next to the output.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    beside: Vec<BesideFile>,
     #[serde(skip_serializing_if = "Option::is_none")]
     takes: Option<usize>,
     /// Units, axes and frame rate of the input, and where they are known from.
@@ -45,6 +51,13 @@ struct ReportedFile {
     error: Option<String>,
 }
 
+/// A file that the output refers to.
+#[derive(Serialize)]
+struct BesideFile {
+    name: String,
+    bytes: usize,
+}
+
 impl ReportedFile {
     fn of(outcome: FileOutcome) -> Self {
         let mut file = Self {
@@ -53,6 +66,7 @@ impl ReportedFile {
             outcome: "skipped",
             from: None,
             bytes: None,
+            beside: Vec::new(),
             takes: None,
             conventions: None,
             warnings: Vec::new(),
@@ -65,6 +79,8 @@ impl ReportedFile {
                 file.outcome = "converted";
                 file.from = Some(converted.from);
                 file.bytes = Some(converted.bytes);
+                file.beside =
+                    converted.beside.into_iter().map(|(name, bytes)| BesideFile { name, bytes }).collect();
                 file.takes = Some(converted.takes);
                 file.conventions = Some(converted.conversion.to_string());
                 file.warnings = converted.warnings;
@@ -99,6 +115,9 @@ impl ConvertReport {
                 for file in self.files.iter().filter(|file| file.outcome == "converted") {
                     let (from, bytes) = (file.from.unwrap_or_default(), file.bytes.unwrap_or_default());
                     writeln!(out, "{} → {} ({bytes} bytes)", plain(&file.input), plain(&file.output))?;
+                    for BesideFile { name, bytes } in &file.beside {
+                        writeln!(out, "  beside it: {} ({bytes} bytes)", plain(name))?;
+                    }
                     writeln!(out, "  {from}: {}", file.conventions.as_deref().unwrap_or_default())?;
                     for warning in &file.warnings {
                         writeln!(out, "  warning: {warning}")?;

@@ -1,6 +1,7 @@
 //! `dragonfly takes extract MODEL -o OUT|DIR`.
 
 use super::super::choice::File;
+use super::super::convert::TextureChoice;
 use super::super::output::print;
 use super::super::{Failure, tell};
 use super::chosen;
@@ -27,6 +28,9 @@ pub(super) struct ExtractTakes {
     /// Program for which the files are written: unity, unreal, maya or blender, for .fbx
     #[arg(long, value_name = "PRESET")]
     preset: Option<String>,
+    /// Place of the images, for .fbx: in the file, or in files next to it, whose names begin with its own [default: embedded]
+    #[arg(long, value_name = "PLACE", value_enum)]
+    textures: Option<TextureChoice>,
     /// Leave out meshes, materials and images
     #[arg(long)]
     no_mesh: bool,
@@ -51,6 +55,7 @@ impl ExtractTakes {
         let order = ExportOrder {
             output: self.output_of(&loaded),
             preset: self.preset,
+            textures: self.textures.map(TextureChoice::placement),
             content,
             takes: indices,
             each: self.each,
@@ -58,7 +63,11 @@ impl ExtractTakes {
         };
         let report = export_files(&loaded.model, &order).map_err(Failure::Input)?;
         for file in &report.files {
-            tell(format_args!("wrote {} ({} bytes)", file.path.display(), file.bytes));
+            let beside = match &*file.beside {
+                [] => String::new(),
+                names => format!(", with {} beside it", names.join(", ")),
+            };
+            tell(format_args!("wrote {} ({} bytes{beside})", file.path.display(), file.bytes));
         }
         print(|out| report.lost.iter().try_for_each(|lost| writeln!(out, "not written: {lost}")))
     }
