@@ -66,6 +66,7 @@ mod made;
 mod masks;
 mod measured;
 mod meshopt;
+mod model_unit;
 mod motion;
 mod obj;
 mod offset;

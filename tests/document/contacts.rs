@@ -158,6 +158,10 @@ fn contacts_are_found_in_the_unit_of_the_model_and_those_of_other_bones_stay() {
     apply(&mut model, &line(&format!(r#""{RIGHT}""#), 0.01));
     let both = spans(&model, 0);
     assert!(both.len() > left.len() && left.iter().all(|span| both.contains(span)), "{both:?}");
+    // Without a unit it is the one that the size of the fox says.
+    let mut guessed = with_contacts();
+    apply(&mut guessed, r#"{"edit":"detect_contacts","take":"Survey"}"#);
+    assert_eq!(spans(&guessed, 0), both);
     // The fox looks around, and its feet do not move most of the time.
     let covered: f32 = left.iter().map(|span| span.2 - span.1).sum();
     assert!(covered > 0.8 * model.slots()[0].result.length, "{covered}");

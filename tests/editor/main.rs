@@ -50,6 +50,7 @@ mod keymap;
 mod keys_menu;
 mod large_rigs;
 mod layers;
+mod length_unit;
 mod life;
 mod locks;
 mod manager;

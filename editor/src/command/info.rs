@@ -8,6 +8,7 @@ use super::table::{Side, Table, count};
 use dragonfly_anim::data::{Avatar, BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::{Conversion, Handedness};
+use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_document::LoadedModel;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -48,6 +49,7 @@ struct Info {
     meshes: Vec<InfoMesh>,
     materials: Vec<InfoMaterial>,
     bounds: InfoBounds,
+    figure: InfoFigure,
     warnings: Vec<String>,
 }
 
@@ -76,6 +78,23 @@ impl InfoConventions {
             sources: sources.into_iter().flatten().map(|source| source.to_string()).collect(),
             text: conversion.to_string(),
         }
+    }
+}
+
+/// The size of the figure, and how many meters a unit is for thresholds of motion.
+#[derive(Serialize)]
+struct InfoFigure {
+    /// Longest way between two joints at rest, units.
+    size: f32,
+    meters_per_unit: f32,
+    #[serde(skip)]
+    remark: Option<String>,
+}
+
+impl InfoFigure {
+    fn of(skeleton: &Skeleton) -> Self {
+        let unit = ModelUnit::of(skeleton);
+        Self { size: unit.size, meters_per_unit: unit.meters, remark: unit.remark() }
     }
 }
 
@@ -203,6 +222,7 @@ impl Info {
                 max: bounds.max.to_array(),
                 sphere: InfoSphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
             },
+            figure: InfoFigure::of(&model.animation.skeleton),
             warnings: loaded.warnings.into_iter().chain(loaded.notes).collect(),
         }
     }
@@ -213,6 +233,9 @@ impl Info {
         let size: Vec<String> =
             self.bounds.max.iter().zip(&self.bounds.min).map(|(max, min)| short(max - min)).collect();
         writeln!(out, "  size {} units, radius {}", size.join(" × "), short(self.bounds.sphere.radius))?;
+        if let Some(remark) = &self.figure.remark {
+            writeln!(out, "  {remark}")?;
+        }
         self.write_takes(out)?;
         self.write_meshes(out)?;
         if !self.materials.is_empty() {
