@@ -75,6 +75,7 @@ mod reduce;
 mod retarget;
 mod retarget_blender;
 mod retarget_figure;
+mod retarget_hips;
 mod retarget_limbs;
 mod root_bone;
 mod rules;

@@ -16,7 +16,9 @@ fn faded(kind: &str) -> ModelAdapter {
     for (time, turn) in [(0.07, "[0.6,0,0,0.8]"), (0.33, "[0,0.6,0,0.8]"), (0.64, "[0,0,0.96,0.28]")] {
         apply(
             &mut model,
-            &format!(r#"{{"edit":"set","take":{layer},"time":{time},"poses":[{{"bone":"{HEAD}","rotation":{turn}}}]}}"#),
+            &format!(
+                r#"{{"edit":"set","take":{layer},"time":{time},"poses":[{{"bone":"{HEAD}","rotation":{turn}}}]}}"#
+            ),
         );
     }
     for (time, weight) in [(0.11, 0.0), (0.5, 1.0)] {
@@ -72,8 +74,7 @@ fn a_merge_adds_keys_on_whole_frames_only_and_each_frame_looks_as_before() {
         }
     }
     let mut model = faded("additive");
-    let refused = model.apply(
-        &serde_json::from_str(r#"{"edit":"merge_layers","take":"Walk","rate":-5}"#).expect("an edit"),
-    );
+    let refused = model
+        .apply(&serde_json::from_str(r#"{"edit":"merge_layers","take":"Walk","rate":-5}"#).expect("an edit"));
     assert!(refused.is_err());
 }

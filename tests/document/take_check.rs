@@ -27,12 +27,7 @@ fn a_checked_take_has_the_defects_that_the_command_line_reports() {
         _ => None,
     });
     assert!(Arc::ptr_eq(&checked.take, &take) && checked.findings == wanted);
-    document.send(DocumentMessage::CheckTake(TakeCheck {
-        take,
-        skeleton,
-        rate: 0.0,
-        meters_per_unit: 0.01,
-    }));
+    document.send(DocumentMessage::CheckTake(TakeCheck { take, skeleton, rate: 0.0, meters_per_unit: 0.01 }));
     let refused = document.wait_for_reply(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),
         _ => None,

@@ -132,6 +132,7 @@ mod window_input_latency;
 mod window_monkey;
 mod window_panics;
 mod window_reference;
+mod window_reload;
 mod window_save;
 mod window_scale;
 mod window_size;

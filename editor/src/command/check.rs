@@ -139,7 +139,8 @@ impl CheckReport {
             denied: takes.as_ref().map_or(0, Vec::len),
             findings: Vec::new(),
             takes,
-            meters_per_unit: thresholds.map(|thresholds| thresholds.unit_of(&loaded.model.animation.skeleton)),
+            meters_per_unit: thresholds
+                .map(|thresholds| thresholds.unit_of(&loaded.model.animation.skeleton)),
         };
         let imported = loaded.warnings.into_iter().chain(loaded.notes);
         for text in imported {

@@ -31,10 +31,9 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
     let more = match (unit.chosen(), unit.by_size().is_of_file()) {
         (Some(_), _) => "The unit was set by hand.".to_owned(),
         (None, true) => "One unit of the model is a meter.".to_owned(),
-        (None, false) => format!(
-            "By its file it would be {}, which no figure is: another unit is assumed.",
-            length(size)
-        ),
+        (None, false) => {
+            format!("By its file it would be {}, which no figure is: another unit is assumed.", length(size))
+        }
     };
     ui.label(RichText::new(more).small().color(theme.weak));
     ui.add_space(2.0 * GRID);

@@ -3,8 +3,8 @@
 use super::context::PanelContext;
 use super::export::ExportDialog;
 use super::loop_dialog::LoopDialog;
-use super::model_size;
 use super::mirror_pairs::MirrorDialog;
+use super::model_size;
 use super::open_path::{OpenPathDialog, PathUse};
 use super::overlay_title;
 use super::palette::Palette;

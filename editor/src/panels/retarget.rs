@@ -220,10 +220,11 @@ impl RetargetDialog {
         let switch = ui.checkbox(&mut self.shows_source, "Show the source beside the model");
         widgets::hint_beside(
             &switch,
-            "Draws the skeleton of the file in the viewport, at the size of this model, in the pose of its take at the time of the playhead",
+            "Draws the skeleton of the file in the viewport, at the size of this model, in the pose of its take at the time of the playhead; the bone that moves the selected one is emphasized",
         );
         let SourcePlace { scale, offset } = place;
-        let source = DialogPreview::Source { take: self.take, scale, offset };
+        let marked = context.selected().and_then(|bone| self.source_of.get(bone as usize).copied().flatten());
+        let source = DialogPreview::Source { take: self.take, scale, offset, marked };
         let preview = if self.shows_source { source } else { DialogPreview::Nothing };
         if preview != context.preview {
             requests.push(Request::Preview(preview));

@@ -83,12 +83,7 @@ impl EditKind for MergeLayers {
 }
 
 /// Makes the lowest `count` layers keys of their take.
-fn into_take(
-    work: &mut Transaction,
-    take: TakeId,
-    count: usize,
-    rate: Option<f32>,
-) -> Result<(), EditError> {
+fn into_take(work: &mut Transaction, take: TakeId, count: usize, rate: Option<f32>) -> Result<(), EditError> {
     let slot = work.slot(take);
     let rate = rate_of(rate, &slot.result)?;
     let layers: Vec<_> = slot.layers()[..count].iter().map(LayerVersions::flat).collect();
@@ -133,7 +128,10 @@ fn merged(
     let mut take = Take { tracks: lower.keys.result.tracks.clone(), ..Take::default() };
     for bone in 0..take.tracks.len().min(skeleton.len()) as u32 {
         for property in Property::ALL {
-            with_kind!(property, merged_channel::<K>(&mut take.tracks[bone as usize], bone, (lower, upper), rate));
+            with_kind!(
+                property,
+                merged_channel::<K>(&mut take.tracks[bone as usize], bone, (lower, upper), rate)
+            );
         }
     }
     let settings =

@@ -101,6 +101,11 @@ impl EditKind for ReduceKeys {
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let tolerance = from.choice([0.0, 1.0, 5000.0]);
-        Self { take: from.take(), keys: from.keys(), tolerance, unit: from.choice([None, Some(1000.0), Some(10.0)]) }
+        Self {
+            take: from.take(),
+            keys: from.keys(),
+            tolerance,
+            unit: from.choice([None, Some(1000.0), Some(10.0)]),
+        }
     }
 }

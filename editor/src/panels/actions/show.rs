@@ -1,5 +1,6 @@
 //! The start of a frame, and a newer view of the document.
 
+use super::reopened::BeforeReload;
 use super::{drags, framing, keys, layers, playback, scope, tools, undo};
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
@@ -47,11 +48,13 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     let view = workspace.model.receive(view, &mut workspace.dragging.echo);
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
+        let before = BeforeReload::of(workspace, &view);
         workspace.model.replace(view);
         workspace.selections.open(done);
         workspace.trail.clear();
         workspace.compared = CompareWith::Nothing;
-        return show_model(workspace);
+        show_model(workspace);
+        return before.into_iter().for_each(|before| before.restore(workspace));
     }
     let before = workspace.model.replace(view);
     follow_bones(workspace, before.as_ref(), answered);
@@ -161,7 +164,8 @@ fn recall_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     let recalled = workspace.model.view().and_then(|view| remembered.recall(view));
     if let Some(recalled) = recalled {
-        let RecalledMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } = recalled;
+        let RecalledMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } =
+            recalled;
         for (flag, bone) in flags {
             workspace.keys.set_flag(flag, bone, true);
         }

@@ -127,8 +127,11 @@ impl DifferencesPanel {
         let Some(bone) = self.profile.bone(row) else { return };
         let theme = Theme::of(ui);
         let name = context.bone_name(bone.first);
-        let numbers =
-            format!("{:.2} mm   {:.2}°", bone.distance.value * context.unit.millimeters(), bone.angle.value.to_degrees());
+        let numbers = format!(
+            "{:.2} mm   {:.2}°",
+            bone.distance.value * context.unit.millimeters(),
+            bone.angle.value.to_degrees()
+        );
         let selected = context.selection.bones().contains(&bone.first);
         let (rect, response) = widgets::row(ui, &format!("{name}, {numbers}"), selected, false);
         let width = widgets::text_width(ui, &numbers, &TextStyle::Small);

@@ -74,7 +74,11 @@ impl ShownProfile {
         let (at, nearest) = self.profile.times.iter().enumerate().min_by(near)?;
         let frame = (f64::from(*nearest) * f64::from(context.frame_rate)).round();
         let (distance, angle) = (self.profile.distances.get(at)?, self.profile.angles.get(at)?);
-        Some(format!("Frame {frame}: {:.2} mm, {:.2}°", distance * context.unit.millimeters(), angle.to_degrees()))
+        Some(format!(
+            "Frame {frame}: {:.2} mm, {:.2}°",
+            distance * context.unit.millimeters(),
+            angle.to_degrees()
+        ))
     }
 
     /// Returns the largest distance and angle as text.
