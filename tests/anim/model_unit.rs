@@ -1,11 +1,12 @@
 //! The unit of length of a model: as the file says where that is plausible, and otherwise as the size of the figure says.
 
+use crate::contacts::{leg, step};
 use crate::doors::data;
 use crate::motion::load;
 use crate::support::bone;
 use dragonfly_anim::contact::{ContactThresholds, detect_contacts, feet_by_name};
-use dragonfly_anim::data::Skeleton;
-use dragonfly_anim::frames::{TakeFrames, frame_rate};
+use dragonfly_anim::data::{Skeleton, Take};
+use dragonfly_anim::frames::TakeFrames;
 use dragonfly_anim::lint::{LintThresholds, lint_take};
 use dragonfly_anim::model_unit::ModelUnit;
 use glam::{Quat, Vec3};
@@ -73,24 +74,38 @@ fn models_of_games_and_captures_are_in_meters_and_the_fox_is_in_centimeters() {
     assert!(remark.contains("1 unit = 0.01 m") && remark.contains("it were 1."), "{remark}");
 }
 
+/// A leg and its steps in centimeters.
+fn in_centimeters() -> (Skeleton, Take) {
+    let (mut skeleton, mut take) = (leg(), step());
+    skeleton.bones.iter_mut().for_each(|bone| bone.rest.translation *= 100.0);
+    for track in &mut take.tracks {
+        track.translation.values = track.translation.values.iter().map(|value| *value * 100.0).collect();
+    }
+    (skeleton, take)
+}
+
 #[test]
-fn the_feet_of_the_fox_touch_the_ground_in_its_unit_and_its_defects_are_those_of_an_animal() {
-    let model = load(&data().join("gltf/Fox.glb"));
-    let skeleton = &model.animation.skeleton;
-    let take = &model.animation.takes[0];
-    let frames = TakeFrames::of(take, skeleton, frame_rate(take)).expect("frames");
-    let feet = feet_by_name(skeleton);
-    let covered = |meters_per_unit: f32| {
+fn contacts_and_defects_in_centimeters_are_those_in_meters() {
+    let (skeleton, take) = in_centimeters();
+    let (meters, in_meters) = (leg(), step());
+    let unit = ModelUnit::of(&skeleton).meters;
+    assert_eq!((unit, ModelUnit::of(&meters).meters), (0.01, 1.0));
+    let contacts = |skeleton: &Skeleton, take: &Take, meters_per_unit: f32| {
+        let frames = TakeFrames::of(take, skeleton, 30.0).expect("frames");
         let thresholds = ContactThresholds { meters_per_unit, ..ContactThresholds::default() };
-        let found = detect_contacts(&frames, &feet, &thresholds);
-        found.iter().map(|contact| contact.to - contact.from).sum::<f32>() / feet.len() as f32
+        detect_contacts(&frames, &feet_by_name(skeleton), &thresholds)
     };
-    let unit = ModelUnit::of(skeleton).meters;
-    assert!(covered(unit) > 0.8 * take.length && covered(1.0) < 0.5 * take.length, "{}", covered(1.0));
-    let defects = |meters: f32| {
+    let wanted = contacts(&meters, &in_meters, 1.0);
+    assert_eq!(wanted.len(), 2);
+    assert_eq!(contacts(&skeleton, &take, unit), wanted);
+    assert_eq!(contacts(&skeleton, &take, 1.0), [], "2 mm in a frame would be 20 cm");
+    let defects = |skeleton: &Skeleton, take: &Take, meters: f32| {
         let mut limits = LintThresholds::default();
         limits.contacts.meters_per_unit = meters;
-        lint_take(take, skeleton, 24.0, &limits).expect("a table").len()
+        let found = lint_take(take, skeleton, 30.0, &limits).expect("a table");
+        found.iter().map(|finding| (finding.rule, finding.frame)).collect::<Vec<_>>()
     };
-    assert!(defects(unit) < defects(1.0), "{} {}", defects(unit), defects(1.0));
+    let wanted = defects(&meters, &in_meters, 1.0);
+    assert_eq!(defects(&skeleton, &take, unit), wanted);
+    assert_ne!(defects(&skeleton, &take, 1.0), wanted);
 }

@@ -72,7 +72,8 @@ fn the_source_of_a_take_stands_beside_the_model_while_the_dialog_is_open() {
         |animator: &Animator| second(animator).and_then(|shown| shown.other).and_then(|other| other.marked);
     assert_eq!(marked(&animator), Some(5), "both skeletons have the same names");
     let name = animator.harness.state().state.read().bone_name(5);
-    click(&mut animator, &format!("The bone that moves {name}"));
+    let label = format!("The bone that moves {name}: {name}");
+    click(&mut animator, &label);
     animator.harness.query_all_by_label("rests").last().expect("an entry").click();
     animator.steps(3);
     assert_eq!(marked(&animator), None, "nothing moves it");
