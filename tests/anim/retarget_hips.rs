@@ -74,7 +74,7 @@ fn figure(place: Vec3, legs: u32) -> Skeleton {
 fn the_hips_are_the_closest_bone_above_legs_and_spine_that_is_where_hips_are() {
     let hips = |skeleton: &Skeleton| {
         let roles = SkeletonRoles::guess(skeleton);
-        assert_eq!(roles.convention, Some("Quaternius"));
+        assert!(roles.convention.is_some());
         roles.bones(HIPS)
     };
     assert_eq!(hips(&figure(Vec3::Y * 0.05, 2)), [2], "the legs are children of the hips");
