@@ -215,7 +215,9 @@ impl RetargetDialog {
                 |roles: &[Option<BoneRole>], bone: usize| roles.get(bone).is_some_and(Option::is_some);
             let own = |bone: usize| is_part(&guess.target.of, bone);
             let others = |bone: usize| is_part(&guess.source.of, bone);
-            SourcePlace::beside(target, &source.model.animation.skeleton, [&own, &others])
+            let animation = &source.model.animation;
+            let take = animation.takes.get(self.take).map(|take| &**take);
+            SourcePlace::beside(target, &animation.skeleton, take, [&own, &others])
         });
         let switch = ui.checkbox(&mut self.shows_source, "Show the source beside the model");
         widgets::hint_beside(
@@ -271,7 +273,7 @@ impl RetargetDialog {
                 ScrollArea::vertical().max_height(10.0 * ROW).show(ui, |ui| {
                     for take in 0..takes.len() {
                         if ui.add(Button::selectable(take == self.take, name(take))).clicked() {
-                            self.take = take;
+                            (self.take, self.place) = (take, None);
                         }
                     }
                 });
