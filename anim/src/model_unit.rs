@@ -54,7 +54,7 @@ impl ModelUnit {
         Self { size, meters: UNITS.into_iter().find(is_plausible).unwrap_or(1.0) }
     }
 
-    /// Returns whether a unit is a meter, as the file says.
+    /// Returns whether one unit is a meter, the unit of files that state no other.
     pub fn is_of_file(self) -> bool {
         self.meters == 1.0
     }

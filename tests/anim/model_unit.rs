@@ -1,4 +1,4 @@
-//! The unit of length of a model: as the file says where that is plausible, and otherwise as the size of the figure says.
+//! The unit of length of a model: that of the file where it is plausible, and otherwise one guessed from the size of the figure.
 
 use crate::contacts::{leg, step};
 use crate::doors::data;

@@ -1,4 +1,4 @@
-//! Figures whose hips hang beside their legs stay in one piece: what carries both is moved as hips.
+//! Figures whose hips do not carry their legs stay in one piece: the bone that carries both is moved as hips.
 
 use crate::doors::data;
 use crate::motion::load;

@@ -1,4 +1,4 @@
-//! The unit of length of a model is what its size says, or what was set for its file; foot slide and edits are measured with it.
+//! The unit of length of a model is guessed from its size, or was set for its file; foot slide and edits are measured with it.
 
 use crate::timeline_rig::Animator;
 use crate::workbench::{Window, Workbench, type_into};

@@ -28,10 +28,10 @@ pub use settings::{LayerMode, LayerSettings, TakeLayer, WeightKey, played};
 use crate::data::Channel;
 use crate::sample::sample_channel;
 
-/// Where one take gets keys between those of base, layers and weights.
+/// The times at which one take gets keys between those of base, layers and weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AddedKeys {
-    /// Halfway between two keys, and halfway again: as near as the tolerance says. For a take that other programs play.
+    /// Halfway between two keys, and halfway again, until the tolerance is met. For a take that other programs play.
     Halfway,
     /// On whole frames at this rate, frames per second: for keys that an animator edits. Between two frames the result may be further off. A
     /// rate that is not positive adds none.

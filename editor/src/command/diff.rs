@@ -31,8 +31,8 @@ const COLUMNS: usize = 401;
 /// Compare the takes of two files and list the bones that differ, in mm and degrees
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
-Takes and bones are paired by name. Distances are between joints in scene space, in the unit that the size of the\n\
-first figure says (more than 20 m are taken for centimeters); angles are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
+Takes and bones are paired by name. Distances are between joints in scene space, in a unit guessed from the size of\n\
+the first figure (more than 20 m are taken for centimeters); angles are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
 Examples:\n  dragonfly diff Fox.glb Fox2.glb\n  dragonfly diff Fox.glb Fox2.glb --tolerance 0.5 --json\n  dragonfly diff Fox.glb Fox2.glb --picture diff.png")]
 pub(super) struct DiffArguments {
     /// A model, or `demo:` for the built-in dragonfly
@@ -118,7 +118,7 @@ fn write_picture(path: &Path, files: [LoadedModel; 2], difference: &FileDifferen
 struct FileDifference {
     files: [String; 2],
     differs: bool,
-    /// Meters in one unit of length, as the size of the first figure says.
+    /// Meters in one unit of length, guessed from the size of the first figure.
     meters_per_unit: f32,
     only_in_first: OnlyIn,
     only_in_second: OnlyIn,
@@ -225,7 +225,7 @@ impl FileDifference {
     }
 }
 
-/// What counts as equal: millimeters and degrees.
+/// The tolerances within which bones count as equal, millimeters and degrees.
 #[derive(Clone, Copy)]
 struct DiffLimits {
     tolerance: f32,

@@ -2,13 +2,13 @@
 
 use super::Failure;
 use super::choice::{File, plain};
+use super::info_figure::InfoFigure;
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
 use dragonfly_anim::data::{Avatar, BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::{Conversion, Handedness};
-use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_document::LoadedModel;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -78,23 +78,6 @@ impl InfoConventions {
             sources: sources.into_iter().flatten().map(|source| source.to_string()).collect(),
             text: conversion.to_string(),
         }
-    }
-}
-
-/// The size of the figure, and how many meters a unit is for thresholds of motion.
-#[derive(Serialize)]
-struct InfoFigure {
-    /// Longest way between two joints at rest, units.
-    size: f32,
-    meters_per_unit: f32,
-    #[serde(skip)]
-    remark: Option<String>,
-}
-
-impl InfoFigure {
-    fn of(skeleton: &Skeleton) -> Self {
-        let unit = ModelUnit::of(skeleton);
-        Self { size: unit.size, meters_per_unit: unit.meters, remark: unit.remark() }
     }
 }
 
@@ -233,7 +216,7 @@ impl Info {
         let size: Vec<String> =
             self.bounds.max.iter().zip(&self.bounds.min).map(|(max, min)| short(max - min)).collect();
         writeln!(out, "  size {} units, radius {}", size.join(" × "), short(self.bounds.sphere.radius))?;
-        if let Some(remark) = &self.figure.remark {
+        if let Some(remark) = self.figure.remark() {
             writeln!(out, "  {remark}")?;
         }
         self.write_takes(out)?;

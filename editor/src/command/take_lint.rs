@@ -68,7 +68,7 @@ pub(super) fn defects(
 pub(super) struct TakeThresholds {
     /// Frames per second; by default the lowest usual rate that fits the keys of a take.
     rate: Option<f32>,
-    /// Meters in one unit of the model; by default as the size of the figure says.
+    /// Meters in one unit of the model; by default guessed from the size of the figure.
     meters_per_unit: Option<f32>,
     limits: LintThresholds,
 }

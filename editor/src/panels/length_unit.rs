@@ -1,4 +1,4 @@
-//! The unit of length of the model that is open: as its size says, until the user sets one. It is remembered with the marks of the
+//! The unit of length of the model that is open: guessed from its size until the user sets one. It is remembered with the marks of the
 //! file, and holds for all distances that are compared with thresholds or shown in millimeters.
 
 use dragonfly_anim::data::Skeleton;
@@ -26,17 +26,17 @@ impl LengthUnit {
         1000.0 * self.meters()
     }
 
-    /// Returns the unit that the user set, meters; `None` where the size of the model tells it.
+    /// Returns the unit that the user set, meters; `None` where it is guessed.
     pub fn chosen(self) -> Option<f32> {
         self.chosen
     }
 
-    /// Returns the unit as the size of the model says.
+    /// Returns the unit that is guessed from the size of the model.
     pub fn by_size(self) -> ModelUnit {
         self.by_size
     }
 
-    /// Sets the unit, meters, or lets the size of the model tell it again. A number outside of [`METERS`] is not taken.
+    /// Sets the unit, meters, or uses the guess again. A number outside of [`METERS`] is not taken.
     pub(super) fn choose(&mut self, meters: Option<f32>) {
         match meters {
             Some(meters) if METERS.contains(&meters) => self.chosen = Some(meters),
@@ -45,7 +45,7 @@ impl LengthUnit {
         }
     }
 
-    /// Sets the unit that the size of a model says.
+    /// Guesses the unit from the size of a model.
     pub(super) fn guess(&mut self, skeleton: &Skeleton) {
         *self = Self { by_size: ModelUnit::of(skeleton), chosen: None };
     }

@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
             requests.push(Request::LengthUnit(Some(meters)));
         }
         let by_size = ui.add_enabled(unit.chosen().is_some(), Button::new("By the size"));
-        widgets::hint_beside(&by_size, "Lets the size of the figure tell the unit again");
+        widgets::hint_beside(&by_size, "Uses the unit guessed from the size of the figure again");
         if by_size.clicked() {
             requests.push(Request::LengthUnit(None));
         }
@@ -63,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
     ui.label(RichText::new(text).small().color(theme.weak));
 }
 
-/// Returns a length of so many meters as text.
+/// Returns a length in meters as text.
 fn length(meters: f32) -> String {
     if meters < 0.1 { format!("{:.1} cm", 100.0 * meters) } else { format!("{meters:.2} m") }
 }

@@ -71,7 +71,7 @@ pub enum Request {
     Repeat(dragonfly_picture::playback::Repeat),
     /// Sets the frame rate of the timeline, frames per second.
     FrameRate(u32),
-    /// Sets the meters in one unit of the model; `None`: as its size says.
+    /// Sets the meters in one unit of the model; `None`: guessed from its size.
     LengthUnit(Option<f32>),
     /// Sets the scale of the window's content.
     Scale(f32),

@@ -1,4 +1,4 @@
-//! Hips that hang beside the legs.
+//! Hips that do not carry the legs.
 //!
 //! Some rigs have a bone for the whole body below which hips and legs are siblings (Quaternius: `Body`, with `Hips`, `UpperLeg.L` and
 //! `UpperLeg.R`). The hips of another figure carry its legs; bound to the bone called hips, they would carry the trunk alone, and the

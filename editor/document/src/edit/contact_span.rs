@@ -56,7 +56,7 @@ pub(super) fn detected(
     Ok(detect_contacts(&frames, bones, thresholds))
 }
 
-/// Returns the meters in one unit of the model: as the edit says, or else as the size of the figure does.
+/// Returns the meters in one unit of the model: that of the edit, or else the one guessed from the size of the figure.
 pub(super) fn unit(work: &Transaction, meters_per_unit: Option<f32>) -> Result<f32, EditError> {
     let Some(unit) = meters_per_unit else { return Ok(ModelUnit::of(work.skeleton()).meters) };
     if finite("the unit", unit)? <= 0.0 {

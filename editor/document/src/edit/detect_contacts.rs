@@ -23,7 +23,7 @@ pub struct DetectContacts {
     /// The bones. Where empty, those whose names say that they are feet.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bones: Vec<BoneRef>,
-    /// Meters in one unit of length of the model: 1 for glTF, 0.01 for centimeters. By default as the size of the figure says.
+    /// Meters in one unit of length of the model: 1 for glTF, 0.01 for centimeters. By default guessed from the size of the figure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meters_per_unit: Option<f32>,
     /// Frames per second; by default the lowest usual rate that fits the keys of the take.

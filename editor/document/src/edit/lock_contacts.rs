@@ -30,7 +30,7 @@ pub struct LockContacts {
     /// Frames per second of the new keys; by default the lowest usual rate that fits the keys of the take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
-    /// Meters in one unit of length of the model, for contacts that are to be found. By default as the size of the figure says.
+    /// Meters in one unit of length of the model, for contacts that are to be found. By default guessed from the size of the figure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meters_per_unit: Option<f32>,
 }

@@ -25,7 +25,7 @@ pub struct ReduceKeys {
     pub keys: Vec<KeySet>,
     /// The tolerance in millimeters, 0 to 10,000.
     pub tolerance: f32,
-    /// Millimeters in one unit of the model: 1000 where it is in meters. By default as the size of the figure says.
+    /// Millimeters in one unit of the model: 1000 where it is in meters. By default guessed from the size of the figure.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<f32>,
 }

@@ -1,4 +1,4 @@
-//! What stays when the open file is read again: the take by its name, the playhead, the selected bones by their names, and the camera.
+//! The state that is kept when the open file is read again: the take by its name, the playhead, the selected bones by their names, and the camera.
 
 use super::playback;
 use crate::panels::workspace::Workspace;
