@@ -65,6 +65,7 @@
 //! | tangents of cubic splines; full turns and signs of rotation keys; keys repeated in cycles | [`tangents`], [`turns`], [`cycle`] |
 //! | root motion; a root bone for it | [`motion`], [`root_bone`] |
 //! | contacts of feet; loops; defects of a take | [`contact`], [`loops`], [`lint`] |
+//! | the unit of length of a model whose file is in centimeters | [`model_unit`] |
 //! | a take at its frames, and with keys at them | [`frames`], [`bake`] |
 //! | play a take on another skeleton | [`retarget`] |
 #![cfg_attr(
@@ -136,6 +137,8 @@ pub mod limits;
 pub mod lint;
 #[doc(alias("cycle", "loop"))]
 pub mod loops;
+#[doc(alias("scale", "centimeters"))]
+pub mod model_unit;
 #[doc(alias("root motion"))]
 pub mod motion;
 #[doc(alias("additive edit", "proportional editing"))]

@@ -15,7 +15,7 @@ const RATE: f32 = 30.0;
 const FOOT: u32 = 3;
 
 /// Hips at a height of 0.9, and a leg of two parts of 0.45 that is slightly bent.
-fn leg() -> Skeleton {
+pub(crate) fn leg() -> Skeleton {
     Skeleton {
         bones: vec![
             bone("Hips", None, Vec3::new(0.0, 0.88, 0.0)),
@@ -35,7 +35,7 @@ fn moved(frames: usize, place: impl Fn(usize) -> Vec3) -> Take {
 }
 
 /// Still for 20 frames, up and forward for 10, still for 20. While it is still it drifts by 2 mm per frame.
-fn step() -> Take {
+pub(crate) fn step() -> Take {
     moved(50, |frame| match frame {
         0..20 => Vec3::Z * 0.002 * frame as f32,
         20..30 => {

@@ -23,6 +23,7 @@ mod keeping;
 mod layers;
 mod limits;
 mod many_bones;
+mod merged_keys;
 mod offset_keys;
 mod old_journals;
 mod pose_library;

@@ -12,19 +12,22 @@ fn a_checked_take_has_the_defects_that_the_command_line_reports() {
     let mut document = TestDocument::new(&folder.join("autosave"));
     let view = document.open(&fox(&folder));
     let (take, skeleton) = (Arc::clone(&view.takes[2]), Arc::clone(&view.loaded.model.animation.skeleton));
-    let wanted = lint_take(&take, &skeleton, 24.0, &LintThresholds::default()).expect("a table");
+    let mut limits = LintThresholds::default();
+    limits.contacts.meters_per_unit = 0.01;
+    let wanted = lint_take(&take, &skeleton, 24.0, &limits).expect("a table");
     assert!(!wanted.is_empty());
     document.send(DocumentMessage::CheckTake(TakeCheck {
         take: Arc::clone(&take),
         skeleton: Arc::clone(&skeleton),
         rate: 24.0,
+        meters_per_unit: 0.01,
     }));
     let checked = document.wait_for_reply(|reply| match reply {
         DocumentReply::Checked(checked) => Some(checked.clone()),
         _ => None,
     });
     assert!(Arc::ptr_eq(&checked.take, &take) && checked.findings == wanted);
-    document.send(DocumentMessage::CheckTake(TakeCheck { take, skeleton, rate: 0.0 }));
+    document.send(DocumentMessage::CheckTake(TakeCheck { take, skeleton, rate: 0.0, meters_per_unit: 0.01 }));
     let refused = document.wait_for_reply(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),
         _ => None,

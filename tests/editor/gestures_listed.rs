@@ -25,6 +25,18 @@ fn the_palette_and_the_shortcut_sheet_list_the_gestures_of_keys() {
         ("break tangent", "Alt + drag a tangent"),
         ("zoom values", "Ctrl + wheel over the curves"),
         ("zoom time", "Wheel over the timeline or the curves"),
+        ("playhead", "Click or drag on the ruler"),
+        ("about the playhead", "Alt + drag the end of the bar"),
+        ("pan the values", "Drag the values beside the curves"),
+        ("motion path", "Drag a key of the motion path"),
+        ("precision", "Drag a number"),
+        ("reset number", "Double-click a slider"),
+        ("blend in", "Drag a pose of the library sideways"),
+        ("selection set", "Click a selection set"),
+        ("frame it", "Click a bone in the list"),
+        ("fold", "Shift + click the eye or the arrow"),
+        ("edit its name", "Double-click a take, layer, marker or event"),
+        ("what is under", "Right-click"),
     ] {
         for (key, field) in
             [(egui::Key::F3, "Find a command or a take"), (egui::Key::F1, "Find a command or a shortcut")]

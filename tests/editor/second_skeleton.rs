@@ -64,6 +64,19 @@ fn the_source_of_a_take_stands_beside_the_model_while_the_dialog_is_open() {
     let beside = shown.other.expect("another skeleton");
     assert!(Arc::ptr_eq(&beside.skeleton, &source.model.animation.skeleton));
     assert!(beside.first_of.is_empty() && shown.offset.x < 0.0, "{}", shown.offset);
+    assert_eq!(beside.marked, None, "no bone is selected");
+    // The bone that moves the selected one is emphasized, also after the map was corrected.
+    animator.request(Request::Select(Some(5)));
+    animator.steps(3);
+    let marked =
+        |animator: &Animator| second(animator).and_then(|shown| shown.other).and_then(|other| other.marked);
+    assert_eq!(marked(&animator), Some(5), "both skeletons have the same names");
+    let name = animator.harness.state().state.read().bone_name(5);
+    let label = format!("The bone that moves {name}: {name}");
+    click(&mut animator, &label);
+    animator.harness.query_all_by_label("rests").last().expect("an entry").click();
+    animator.steps(3);
+    assert_eq!(marked(&animator), None, "nothing moves it");
     animator.harness.get_by_label("Take: Jump").click();
     animator.steps(3);
     // The last one is in the menu; the panel of takes has another.

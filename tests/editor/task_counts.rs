@@ -34,8 +34,10 @@ pub(crate) const TASKS: &[(&str, usize, usize)] = &[
     ("set the play range to the selected keys", 1, 2),
     ("step interpolation of the selected keys", 2, 2),
     ("auto tangents of the selected keys", 2, 2),
+    ("choose a key, and drag its tangent", 2, 2),
     ("lock the feet over a take", 3, 10),
     ("save", 1, 1),
+    ("save as", 2, 2),
 ];
 
 /// A user whose actions are counted.

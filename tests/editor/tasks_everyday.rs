@@ -1,11 +1,14 @@
 //! Tasks that every session has, done with mouse and keyboard alone, in no more actions than in Blender.
 
 use crate::task_counts::User;
+use crate::timeline_curves::place_of_z_key;
 use dragonfly::panels::commands::{Id, KeySettings, Preset};
+use dragonfly::panels::dialogs::PlaceQuestion;
+use dragonfly::panels::prompts::Question;
 use dragonfly::panels::{Effect, FileAction, Request};
 use dragonfly_anim::data::Interpolation;
-use dragonfly_document::{Source, Then};
-use egui::{Event, Key, Modifiers};
+use dragonfly_document::{DocumentMessage, SaveOrder, SaveTo, Source, Then};
+use egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 use std::path::Path;
 
@@ -115,4 +118,60 @@ fn keys_get_step_interpolation_from_a_menu_at_the_pointer_in_two_actions() {
     user.animator.steps(3);
     user.has_done("step interpolation of the selected keys", chosen);
     assert_eq!(user.take(0).tracks[3].rotation.interpolation, Interpolation::Step);
+}
+
+#[test]
+fn a_tangent_is_dragged_after_its_key_was_clicked() {
+    let mut user = User::new();
+    user.select_bone();
+    user.animator.request(Request::Command(Id::SelectAllKeys));
+    user.animator.request(Request::Command(Id::InterpolateSpline));
+    user.animator.steps(4);
+    let chosen = user.actions;
+    // At a maximum the tangent is horizontal, so that its end is 44 points to the right.
+    let rotation = user.take(0).tracks[3].rotation.clone();
+    let animator = &mut user.animator;
+    let crest =
+        (9..30).max_by(|&a, &b| place_of_z_key(animator, b).y.total_cmp(&place_of_z_key(animator, a).y));
+    let crest = crest.expect("a key");
+    let at = place_of_z_key(animator, crest);
+    animator.click(at);
+    let end = at + vec2(44.0, 0.0);
+    animator.drag(end, end - vec2(0.0, 25.0));
+    animator.release(end - vec2(0.0, 25.0));
+    user.actions += 2;
+    user.has_done("choose a key, and drag its tangent", chosen);
+    let now = user.take(0).tracks[3].rotation.clone();
+    assert_eq!((now.value(crest), now.interpolation), (rotation.value(crest), Interpolation::CubicSpline));
+    assert_ne!(now.values[crest * 3 + 2], rotation.values[crest * 3 + 2], "the slope is another one");
+}
+
+#[test]
+fn a_file_is_saved_under_another_name_in_two_actions() {
+    let mut user = User::new();
+    user.select_bone();
+    user.typed("Rotation change X", "30");
+    let before = user.actions;
+    user.chord(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    let asks =
+        |effect: &Effect| matches!(effect, Effect::File(FileAction::Where { copy: false, then: None }));
+    assert!(user.animator.harness.state().effects.iter().any(asks));
+    // The dialog of the desktop, or this one where there is none; the name is selected in it.
+    let question = Question::Place(PlaceQuestion { copy: false, then: None });
+    user.animator.harness.state_mut().state.ask(question);
+    user.animator.steps(4);
+    user.actions += 1;
+    user.animator.harness.event(Event::Text("Walk 2".to_owned()));
+    user.animator.steps(2);
+    user.animator.harness.key_press(Key::Enter);
+    user.animator.steps(3);
+    user.has_done("save as", before);
+    let saves = |effect: &Effect| {
+        // The folder of the file, which was opened by a relative path, and its ending stay.
+        let wanted = std::path::absolute("Walk 2.glb").expect("a path");
+        let is_wanted = |to: &SaveTo| matches!(to, SaveTo::As(path) if *path == wanted);
+        matches!(effect, Effect::File(FileAction::Send(DocumentMessage::Save(SaveOrder { to, .. }))) if is_wanted(to))
+    };
+    let effects = &user.animator.harness.state().effects;
+    assert!(effects.iter().any(saves), "{:?}", effects.last());
 }

@@ -21,7 +21,7 @@ fn angle(animator: &Animator, key: usize) -> f32 {
 }
 
 /// Returns the position of the key of the z curve: all values of the bone fit the height of the panel.
-fn place(animator: &Animator, key: usize) -> Pos2 {
+pub(crate) fn place_of_z_key(animator: &Animator, key: usize) -> Pos2 {
     let curves = animator.curves();
     let all: Vec<f32> = (0..41).map(|key| angle(animator, key)).collect();
     let low = all.iter().copied().fold(0.0, f32::min);
@@ -35,7 +35,7 @@ fn place(animator: &Animator, key: usize) -> Pos2 {
 fn a_key_dragged_up_changes_one_angle_as_one_step() {
     let mut animator = Animator::with_bone(3);
     animator.steps(2);
-    let (before, at) = (angle(&animator, 8), place(&animator, 8));
+    let (before, at) = (angle(&animator, 8), place_of_z_key(&animator, 8));
     animator.drag(at, at - vec2(0.0, 40.0));
     animator.release(at - vec2(0.0, 40.0));
     let after = angle(&animator, 8);
@@ -58,7 +58,7 @@ fn several_keys_are_dragged_up_together_and_escape_cancels() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Command(Id::SelectAllKeys));
     let before: Vec<f32> = (0..41).map(|key| angle(&animator, key)).collect();
-    let at = place(&animator, 8);
+    let at = place_of_z_key(&animator, 8);
     animator.drag(at, at - vec2(0.0, 30.0));
     let by = angle(&animator, 8) - before[8];
     assert!(by > 2.0);
@@ -78,7 +78,7 @@ fn several_keys_are_dragged_up_together_and_escape_cancels() {
 fn a_key_dragged_horizontally_changes_its_time() {
     let mut animator = Animator::with_bone(3);
     animator.steps(2);
-    let at = place(&animator, 8);
+    let at = place_of_z_key(&animator, 8);
     let by = animator.x_in(animator.curves(), 0.045) - animator.x_in(animator.curves(), 0.0);
     animator.drag(at, at + vec2(by, 0.0));
     animator.release(at + vec2(by, 0.0));
@@ -106,7 +106,7 @@ fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
         assert_eq!(rotation().interpolation, Interpolation::CubicSpline);
         // A key at a maximum: its tangent is horizontal, so its handle is 44 points to the right.
         let crest = (9..30).max_by(|&a, &b| angle(&animator, a).total_cmp(&angle(&animator, b))).unwrap();
-        let at = place(&animator, crest);
+        let at = place_of_z_key(&animator, crest);
         let before = rotation();
         animator.click(at);
         assert_eq!(animator.selected(), 1);
@@ -157,7 +157,7 @@ fn a_selected_key_shows_its_value_where_several_components_are_drawn() {
     let names = ["Value X", "Value Y", "Value Z", "Time of the key"];
     let there = |animator: &Animator| names.map(|name| animator.harness.query_by_label(name).is_some());
     assert_eq!(there(&animator), [false; 4], "without a key there is no number");
-    let at = place(&animator, 8);
+    let at = place_of_z_key(&animator, 8);
     animator.click(at);
     // At this width only one field fits: that of the clicked curve.
     assert_eq!(there(&animator), [false, false, true, true]);
@@ -175,7 +175,7 @@ fn a_selected_key_shows_its_value_where_several_components_are_drawn() {
 fn dragging_a_number_of_a_key_is_one_step_and_escape_cancels_it() {
     use egui_kittest::kittest::NodeT;
     let mut animator = Animator::with_bone(3);
-    let at = place(&animator, 8);
+    let at = place_of_z_key(&animator, 8);
     animator.click(at);
     let (value, time) = (angle(&animator, 8), animator.key(8));
     let shown = |animator: &Animator, name: &str| {
@@ -228,7 +228,7 @@ fn the_view_grows_to_edited_values_unless_it_was_zoomed() {
     let mut animator = Animator::with_bone(3);
     animator.steps(2);
     turn(&mut animator, 8, 150.0);
-    let at = place(&animator, 8);
+    let at = place_of_z_key(&animator, 8);
     animator.click(at);
     assert_eq!(animator.selected(), 1, "the key is where all values fit");
     animator.request(Request::Timeline(KeysRequest::Deselect));
@@ -237,7 +237,7 @@ fn the_view_grows_to_edited_values_unless_it_was_zoomed() {
     animator.drag(values, values + vec2(0.0, 90.0));
     animator.release(values + vec2(0.0, 90.0));
     turn(&mut animator, 8, -170.0);
-    let at = place(&animator, 8);
+    let at = place_of_z_key(&animator, 8);
     animator.click(at);
     assert_eq!(animator.selected(), 0, "it is out of sight");
 }

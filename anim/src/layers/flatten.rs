@@ -2,7 +2,7 @@
 
 use super::rule::{LayerRule, RotationRule, ScaleRule, TranslationRule};
 use super::settings::{LayerMode, TakeLayer, played};
-use super::{LayerChannel, lines};
+use super::{AddedKeys, LayerChannel, lines};
 use crate::data::{BoneIndex, Channel, Skeleton, Take, Track};
 use crate::sample::{Value, rest_pose, sample_channel};
 use glam::{Quat, Vec3};
@@ -24,22 +24,33 @@ pub struct FlatChannels {
 /// Channels that no layer moves are those of the base, shared. Name, morph weights and extras are those of the base; start and
 /// length are those of the keys. See [`flatten_channel`] for the keys.
 pub fn flatten(base: &Take, layers: &[TakeLayer], skeleton: &Skeleton) -> Take {
+    flatten_with(base, layers, skeleton, AddedKeys::Halfway)
+}
+
+/// Returns the take that `base` and `layers` give together, as [`flatten`] does, with keys added only at the times that `added` allows.
+pub fn flatten_with(base: &Take, layers: &[TakeLayer], skeleton: &Skeleton, added: AddedKeys) -> Take {
     let mut flat = base.clone();
     let played = played(layers.iter().map(|layer| &layer.settings));
     let layers: Vec<&TakeLayer> =
         layers.iter().zip(played).filter(|(_, played)| *played).map(|(layer, _)| layer).collect();
     for (index, (track, bone)) in flat.tracks.iter_mut().zip(&skeleton.bones).enumerate() {
         let rest = rest_pose(bone);
-        one::<TranslationRule>(track, index as BoneIndex, &layers, rest.translation);
-        one::<RotationRule>(track, index as BoneIndex, &layers, rest.rotation);
-        one::<ScaleRule>(track, index as BoneIndex, &layers, rest.scale);
+        one::<TranslationRule>(track, index as BoneIndex, &layers, rest.translation, added);
+        one::<RotationRule>(track, index as BoneIndex, &layers, rest.rotation, added);
+        one::<ScaleRule>(track, index as BoneIndex, &layers, rest.scale, added);
     }
     let (start, end) = flat.range_of_keys().unwrap_or((0.0, 0.0));
     (flat.start, flat.length) = (start, end - start);
     flat
 }
 
-fn one<R: LayerRule>(track: &mut Track, bone: BoneIndex, layers: &[&TakeLayer], rest: R::Value) {
+fn one<R: LayerRule>(
+    track: &mut Track,
+    bone: BoneIndex,
+    layers: &[&TakeLayer],
+    rest: R::Value,
+    added: AddedKeys,
+) {
     let channels: Vec<LayerChannel<'_, R::Value>> = layers
         .iter()
         .filter(|layer| layer.settings.moves(bone))
@@ -48,7 +59,7 @@ fn one<R: LayerRule>(track: &mut Track, bone: BoneIndex, layers: &[&TakeLayer], 
             Some(LayerChannel { settings: &layer.settings, keys })
         })
         .collect();
-    if let Some(flat) = flatten_channel::<R>(R::channel(track), &channels, rest) {
+    if let Some(flat) = flatten_channel_with::<R>(R::channel(track), &channels, rest, added) {
         *R::channel_mut(track) = flat;
     }
 }
@@ -67,6 +78,17 @@ pub fn flatten_channel<R: LayerRule>(
     layers: &[LayerChannel<'_, R::Value>],
     rest: R::Value,
 ) -> Option<Channel<R::Value>> {
+    flatten_channel_with::<R>(base, layers, rest, AddedKeys::Halfway)
+}
+
+/// Returns the channel that `base` gives with these layers over it, as [`flatten_channel`] does, with keys added only at the times that
+/// `added` allows.
+pub fn flatten_channel_with<R: LayerRule>(
+    base: &Channel<R::Value>,
+    layers: &[LayerChannel<'_, R::Value>],
+    rest: R::Value,
+    added: AddedKeys,
+) -> Option<Channel<R::Value>> {
     let layers: Vec<_> = layers.iter().filter(|layer| !layer.keys.is_empty()).copied().collect();
     if layers.is_empty() {
         return None;
@@ -79,7 +101,7 @@ pub fn flatten_channel<R: LayerRule>(
     if !base.is_empty() && layers.iter().all(is_constant) {
         return Some(with_constants::<R>(base, &layers));
     }
-    Some(lines::in_lines::<R>(base, &layers, rest))
+    Some(lines::in_lines::<R>(base, &layers, rest, added))
 }
 
 /// Returns whether the channel has the same value at all times.

@@ -3,7 +3,7 @@
 use super::rule::LayerRule;
 use super::stack::StackSampler;
 use super::times::{JUMP, all_times};
-use super::{LayerChannel, seen};
+use super::{AddedKeys, LayerChannel, seen};
 use crate::data::{Channel, Interpolation};
 use crate::limits::KEYS_PER_CHANNEL;
 use crate::sample::{Value, sample_channel};
@@ -16,11 +16,12 @@ const TOLERANCE: f32 = 1e-4;
 const HALVINGS: u32 = 5;
 
 /// Returns the channel with keys at all keys of base, layers and weights, and between them where a line would be off by more
-/// than the tolerance; steps where there are only steps.
+/// than the tolerance, at the times that `added` allows; steps where there are only steps.
 pub(super) fn in_lines<R: LayerRule>(
     base: &Channel<R::Value>,
     layers: &[LayerChannel<'_, R::Value>],
     rest: R::Value,
+    added: AddedKeys,
 ) -> Channel<R::Value> {
     let at = |time: f32| seen::<R>(sample_channel(base, rest, time), layers, time);
     let mut stack = StackSampler::<R>::new(base, layers, rest);
@@ -51,14 +52,16 @@ pub(super) fn in_lines<R: LayerRule>(
             && next - time > 2.0 * JUMP
             && bends[index + 1] > tolerance
         {
-            halve::<R>(
-                &at,
-                [(time, value), (next, after)],
-                (tolerance, HALVINGS),
-                &mut room,
-                &mut all,
-                &mut values,
-            );
+            let (ends, keys) = ([(time, value), (next, after)], (&mut room, &mut all, &mut values));
+            match added {
+                AddedKeys::Halfway => {
+                    halve::<R>(&at, ends, (tolerance, HALVINGS), keys.0, keys.1, keys.2);
+                }
+                AddedKeys::OnFrames(rate) => {
+                    let within = frames_between(time, next, rate);
+                    on_frames::<R>(&at, ends, (tolerance, rate), within, keys);
+                }
+            }
         }
     }
     Channel { times: all.into(), values: hemisphere::<R>(values), interpolation: Interpolation::Linear }
@@ -90,6 +93,41 @@ fn halve<R: LayerRule>(
     times.push(middle);
     values.push(seen);
     halve::<R>(at, [(middle, seen), to], (tolerance, halvings - 1), room, times, values);
+}
+
+/// Returns the first whole frame after a time and the last one before another, but none within half a millisecond of either.
+fn frames_between(from: f32, to: f32, rate: f32) -> [i64; 2] {
+    let frame = |time: f32| f64::from(time) * f64::from(rate);
+    let near = f64::from(5.0 * JUMP) * f64::from(rate);
+    [(frame(from) + near).floor() as i64 + 1, (frame(to) - near).ceil() as i64 - 1]
+}
+
+/// Puts keys on whole frames, `first` to `last`, between two times where a line is off by more than the tolerance.
+fn on_frames<R: LayerRule>(
+    at: &dyn Fn(f32) -> R::Value,
+    [from, to]: [(f32, R::Value); 2],
+    (tolerance, rate): (f32, f32),
+    [first, last]: [i64; 2],
+    (room, times, values): (&mut usize, &mut Vec<f32>, &mut Vec<R::Value>),
+) {
+    if first > last || *room == 0 {
+        return;
+    }
+    let time = |frame: i64| (frame as f64 / f64::from(rate)) as f32;
+    let off = |frame: i64| {
+        let line = R::Value::linear(from.1, to.1, (time(frame) - from.0) / (to.0 - from.0));
+        R::distance(line, at(time(frame))) > tolerance
+    };
+    let middle = first.midpoint(last);
+    if ![middle, first.midpoint(middle), middle.midpoint(last)].into_iter().any(off) {
+        return;
+    }
+    *room -= 1;
+    let key = (time(middle), at(time(middle)));
+    on_frames::<R>(at, [from, key], (tolerance, rate), [first, middle - 1], (room, times, values));
+    times.push(key.0);
+    values.push(key.1);
+    on_frames::<R>(at, [key, to], (tolerance, rate), [middle + 1, last], (room, times, values));
 }
 
 /// Returns the values with neighboring rotations in one hemisphere, as the importers have them.

@@ -21,12 +21,22 @@ mod settings;
 mod stack;
 mod times;
 
-pub use flatten::{FlatChannels, flatten, flatten_channel};
+pub use flatten::{FlatChannels, flatten, flatten_channel, flatten_channel_with, flatten_with};
 pub use rule::{LayerRule, LayerSum, RotationRule, ScaleRule, TranslationRule};
 pub use settings::{LayerMode, LayerSettings, TakeLayer, WeightKey, played};
 
 use crate::data::Channel;
 use crate::sample::sample_channel;
+
+/// The times at which one take gets keys between those of base, layers and weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AddedKeys {
+    /// Halfway between two keys, and halfway again, until the tolerance is met. For a take that other programs play.
+    Halfway,
+    /// On whole frames at this rate, frames per second: for keys that an animator edits. Between two frames the result may be further off. A
+    /// rate that is not positive adds none.
+    OnFrames(f32),
+}
 
 /// A layer with its keys of one channel.
 #[derive(Clone, Copy, Debug)]

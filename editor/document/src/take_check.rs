@@ -14,6 +14,8 @@ pub struct TakeCheck {
     pub skeleton: Arc<Skeleton>,
     /// Frames per second.
     pub rate: f32,
+    /// Meters in one unit of length of the model.
+    pub meters_per_unit: f32,
 }
 
 /// The defects of a take.
@@ -35,6 +37,7 @@ impl TakeCheck {
         let given = stored_contacts(&self.take.extras, &self.skeleton);
         let mut limits = LintThresholds::default();
         limits.given = given;
+        limits.contacts.meters_per_unit = self.meters_per_unit;
         let findings = lint_take(&self.take, &self.skeleton, self.rate, &limits);
         let take = Arc::clone(&self.take);
         findings.map(|findings| CheckedTake { take, findings }).map_err(|error| error.to_string())

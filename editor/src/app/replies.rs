@@ -9,6 +9,7 @@ use crate::panels::dialogs::{ChangedQuestion, PlanQuestion, UnfitQuestion, Unsav
 use crate::panels::open_model::Loading;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
+use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, View};
 use dragonfly_runtime::{Context, Receiver};
 use std::cell::RefCell;
@@ -122,6 +123,10 @@ fn opened(interface: &mut Interface, loaded: &LoadedModel) {
     }
     for note in &loaded.notes {
         state.say(MessageSeverity::Info, format!("{}: {note}", loaded.title));
+    }
+    let unit = ModelUnit::of(&loaded.model.animation.skeleton);
+    if let Some(remark) = unit.remark() {
+        state.say(MessageSeverity::Info, format!("{}: {remark}; Size of the model… sets it", loaded.title));
     }
     let opened = format!("Opened {}", loaded.title);
     match loaded.warnings.len() {

@@ -4,6 +4,7 @@ use crate::panels::PanelContext;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::Change;
 use dragonfly_document::protocol::ProtocolCommand;
+use dragonfly_picture::camera::Camera;
 use glam::{Quat, Vec3};
 use tracing::{debug, enabled};
 
@@ -34,6 +35,8 @@ struct StateRecord {
     viewport: egui::Rect,
     bones: usize,
     bone: Option<BoneIndex>,
+    take: Option<usize>,
+    camera: Camera,
     time: f32,
     playing: bool,
     steps: [usize; 2],
@@ -55,6 +58,8 @@ impl StateTrace {
             viewport: state.viewport,
             bones: state.selection.bones().len(),
             bone,
+            take: state.playback.take,
+            camera: state.camera,
             time: state.time(),
             playing: state.playback.playing,
             steps: history.unwrap_or_default(),
@@ -64,6 +69,8 @@ impl StateTrace {
             return;
         }
         let name = bone.map_or(String::new(), |bone| state.bone_name(bone));
+        let take = state.shown_take().map_or("", |take| &take.name);
+        let Camera { target, distance, yaw, pitch, .. } = record.camera;
         let rect = record.viewport;
         let (translation, rotation, scale) = record.pose.unwrap_or_default();
         debug!(
@@ -71,6 +78,8 @@ impl StateTrace {
             viewport = ?[rect.left(), rect.top(), rect.width(), rect.height()],
             bones = record.bones,
             bone = name,
+            take,
+            camera = ?[target.x, target.y, target.z, distance, yaw, pitch],
             time = record.time,
             done = record.steps[0],
             steps = record.steps[1],

@@ -19,7 +19,7 @@ Findings are errors (shown wrong, or replaced by a placeholder), warnings (allow
 Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher, or with --takes, a take has a defect.\n\n\
 The script of a scene (.xml) is checked with the models that it names; findings have line and column.\n\n\
 With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, loop_gap (off), spare_keys and\n\
-outside. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
+outside. A figure of more than 20 m is taken to be in centimeters or millimeters. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
 \"up\": \"y\", \"floor_height\": 0, \"rate\": 30}; null switches a rule off.\n\n\
 Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json\n  \
 dragonfly check Fox.glb --takes --thresholds lint.json\n  dragonfly check duel.xml")]
@@ -110,6 +110,9 @@ struct CheckReport {
     /// Defects of takes; absent without `--takes`.
     #[serde(skip_serializing_if = "Option::is_none")]
     takes: Option<Vec<TakeDefect>>,
+    /// Meters in one unit of length with which takes were measured; absent without `--takes`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    meters_per_unit: Option<f32>,
 }
 
 /// One finding.
@@ -136,6 +139,8 @@ impl CheckReport {
             denied: takes.as_ref().map_or(0, Vec::len),
             findings: Vec::new(),
             takes,
+            meters_per_unit: thresholds
+                .map(|thresholds| thresholds.unit_of(&loaded.model.animation.skeleton)),
         };
         let imported = loaded.warnings.into_iter().chain(loaded.notes);
         for text in imported {
@@ -195,6 +200,9 @@ impl CheckReport {
             write!(out, ", {} of takes", count(takes.len(), "defect", "defects"))?;
         }
         writeln!(out)?;
+        if let Some(meters) = self.meters_per_unit.filter(|meters| *meters != 1.0) {
+            writeln!(out, "  motion is measured with 1 unit = {meters} m")?;
+        }
         for FindingRow { severity, rule, place, text } in &self.findings {
             let place = if place.is_empty() { String::new() } else { format!("{}: ", plain(place)) };
             writeln!(out, "  {severity}: {place}{} ({rule})", plain(text))?;

@@ -12,6 +12,7 @@ use dragonfly_anim::compare::{
     BoneDifference, Peak, TakeDifference, compare_at, compare_takes, even_times, pair_bones,
 };
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
+use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_document::LoadedModel;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -26,14 +27,12 @@ const ANGLE_TOLERANCE: f32 = 0.01;
 const WEIGHT_TOLERANCE: f32 = 1e-4;
 /// Number of times in the strip of the picture.
 const COLUMNS: usize = 401;
-/// Millimeters in a unit of the scene, which is a meter.
-const MILLIMETERS: f32 = 1000.0;
 
 /// Compare the takes of two files and list the bones that differ, in mm and degrees
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
-Takes and bones are paired by name. Distances are between joints in scene space, where a unit counts as a meter; angles\n\
-are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
+Takes and bones are paired by name. Distances are between joints in scene space, in a unit guessed from the size of\n\
+the first figure (more than 20 m are taken for centimeters); angles are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
 Examples:\n  dragonfly diff Fox.glb Fox2.glb\n  dragonfly diff Fox.glb Fox2.glb --tolerance 0.5 --json\n  dragonfly diff Fox.glb Fox2.glb --picture diff.png")]
 pub(super) struct DiffArguments {
     /// A model, or `demo:` for the built-in dragonfly
@@ -119,6 +118,8 @@ fn write_picture(path: &Path, files: [LoadedModel; 2], difference: &FileDifferen
 struct FileDifference {
     files: [String; 2],
     differs: bool,
+    /// Meters in one unit of length, guessed from the size of the first figure.
+    meters_per_unit: f32,
     only_in_first: OnlyIn,
     only_in_second: OnlyIn,
     takes: Vec<DiffTake>,
@@ -175,6 +176,7 @@ impl FileDifference {
         let (takes, others) = (&first.animation.takes, &second.animation.takes);
         let (skeleton, other_skeleton) = (&*first.animation.skeleton, &*second.animation.skeleton);
         let pairs = pair_bones(skeleton, other_skeleton);
+        let meters_per_unit = ModelUnit::of(skeleton).meters;
         let mut is_paired = vec![false; others.len()];
         let (mut rows, mut only_takes) = (Vec::new(), Vec::new());
         for take in takes {
@@ -187,7 +189,8 @@ impl FileDifference {
             let other = &others[index];
             let difference = compare_takes((skeleton, take), (other_skeleton, other));
             let ranges = [[take.start, take.end()], [other.start, other.end()]];
-            rows.push(DiffTake::of(take.name.clone(), ranges, &difference, skeleton, tolerance, angle));
+            let limits = DiffLimits { tolerance, angle, millimeters: 1000.0 * meters_per_unit };
+            rows.push(DiffTake::of(take.name.clone(), ranges, &difference, skeleton, limits));
         }
         let left = is_paired.iter().zip(others).filter(|(is_paired, _)| !**is_paired);
         let only_in_first = OnlyIn { takes: only_takes, bones: names(skeleton, &pairs.only_first) };
@@ -198,7 +201,7 @@ impl FileDifference {
         let differs = rows.iter().any(|row: &DiffTake| row.differs)
             || !only_in_first.is_empty()
             || !only_in_second.is_empty();
-        Self { files, differs, only_in_first, only_in_second, takes: rows }
+        Self { files, differs, meters_per_unit, only_in_first, only_in_second, takes: rows }
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -222,17 +225,26 @@ impl FileDifference {
     }
 }
 
+/// The tolerances within which bones count as equal, millimeters and degrees.
+#[derive(Clone, Copy)]
+struct DiffLimits {
+    tolerance: f32,
+    angle: f32,
+    /// Millimeters in one unit of length.
+    millimeters: f32,
+}
+
 impl DiffTake {
     fn of(
         name: String,
         ranges: [[f32; 2]; 2],
         difference: &TakeDifference,
         skeleton: &Skeleton,
-        tolerance: f32,
-        angle: f32,
+        limits: DiffLimits,
     ) -> Self {
+        let DiffLimits { tolerance, angle, millimeters } = limits;
         let differs = |bone: &&BoneDifference| {
-            bone.distance.value * MILLIMETERS > tolerance || bone.angle.value.to_degrees() > angle
+            bone.distance.value * millimeters > tolerance || bone.angle.value.to_degrees() > angle
         };
         let mut apart: Vec<&BoneDifference> = difference.bones.iter().filter(differs).collect();
         apart.sort_by(|a, b| b.distance.value.total_cmp(&a.distance.value));
@@ -240,7 +252,7 @@ impl DiffTake {
             .into_iter()
             .map(|bone| DiffBone {
                 name: bone_name(skeleton, bone.first),
-                distance_mm: ValueAt::of(bone.distance, MILLIMETERS),
+                distance_mm: ValueAt::of(bone.distance, millimeters),
                 angle_degrees: ValueAt::of(bone.angle, 1.0_f32.to_degrees()),
             })
             .collect();

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::choice::{File, plain};
+use super::info_figure::InfoFigure;
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
@@ -48,6 +49,7 @@ struct Info {
     meshes: Vec<InfoMesh>,
     materials: Vec<InfoMaterial>,
     bounds: InfoBounds,
+    figure: InfoFigure,
     warnings: Vec<String>,
 }
 
@@ -203,6 +205,7 @@ impl Info {
                 max: bounds.max.to_array(),
                 sphere: InfoSphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
             },
+            figure: InfoFigure::of(&model.animation.skeleton),
             warnings: loaded.warnings.into_iter().chain(loaded.notes).collect(),
         }
     }
@@ -213,6 +216,9 @@ impl Info {
         let size: Vec<String> =
             self.bounds.max.iter().zip(&self.bounds.min).map(|(max, min)| short(max - min)).collect();
         writeln!(out, "  size {} units, radius {}", size.join(" × "), short(self.bounds.sphere.radius))?;
+        if let Some(remark) = self.figure.remark() {
+            writeln!(out, "  {remark}")?;
+        }
         self.write_takes(out)?;
         self.write_meshes(out)?;
         if !self.materials.is_empty() {

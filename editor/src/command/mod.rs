@@ -17,6 +17,7 @@ mod failure;
 mod farm;
 mod import_options;
 mod info;
+mod info_figure;
 mod log;
 mod open;
 mod output;

@@ -2,9 +2,10 @@
 
 use super::Failure;
 use super::choice::plain;
-use dragonfly_anim::data::AnimationData;
+use dragonfly_anim::data::{AnimationData, Skeleton};
 use dragonfly_anim::frames::frame_rate;
 use dragonfly_anim::lint::{LintRule, LintThresholds, lint_take};
+use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_anim::motion::Axis;
 use dragonfly_document::adapter::stored_contacts;
 use serde::Serialize;
@@ -45,6 +46,7 @@ pub(super) fn defects(
         let given = stored_contacts(&take.extras, skeleton);
         let mut limits = thresholds.limits.clone();
         limits.given = given;
+        limits.contacts.meters_per_unit = thresholds.unit_of(skeleton);
         let found = lint_take(take, skeleton, rate, &limits)
             .map_err(|error| Failure::Input(format!("take {}: {error}", plain(&take.name))))?;
         defects.extend(found.into_iter().map(|finding| TakeDefect {
@@ -66,6 +68,8 @@ pub(super) fn defects(
 pub(super) struct TakeThresholds {
     /// Frames per second; by default the lowest usual rate that fits the keys of a take.
     rate: Option<f32>,
+    /// Meters in one unit of the model; by default guessed from the size of the figure.
+    meters_per_unit: Option<f32>,
     limits: LintThresholds,
 }
 
@@ -76,6 +80,11 @@ impl TakeThresholds {
         let value: Value =
             serde_json::from_slice(&bytes).map_err(|error| Failure::input(file.display(), error))?;
         Self::of(&value).map_err(|reason| Failure::input(file.display(), reason))
+    }
+
+    /// Returns the meters in one unit of a model with this skeleton.
+    pub(super) fn unit_of(&self, skeleton: &Skeleton) -> f32 {
+        self.meters_per_unit.unwrap_or_else(|| ModelUnit::of(skeleton).meters)
     }
 
     fn of(value: &Value) -> Result<Self, String> {
@@ -98,7 +107,7 @@ impl TakeThresholds {
             }
             match name.as_str() {
                 "rate" => thresholds.rate = Some(positive()?),
-                "meters_per_unit" => thresholds.limits.contacts.meters_per_unit = positive()?,
+                "meters_per_unit" => thresholds.meters_per_unit = Some(positive()?),
                 "floor_height" => thresholds.limits.floor = number()?,
                 "up" => thresholds.limits.contacts.up = axis(value)?,
                 _ => {

@@ -13,7 +13,7 @@ pub(super) struct BoneChoice<'a> {
     pub(super) names: &'a [String],
     /// Text of the entry for no bone; `None` where a bone must be chosen.
     pub(super) none: Option<&'a str>,
-    /// Accessible name and first line of the tooltip.
+    /// Accessible name, before the name of the bone, and first line of the tooltip.
     pub(super) label: &'a str,
     /// Width of the button, points.
     pub(super) width: f32,
@@ -29,6 +29,7 @@ impl BoneChoice<'_> {
         let button = Button::new(RichText::new(text).color(color));
         let button = add_left(ui, button, self.width);
         let shown = chosen.map_or(self.none.unwrap_or("no bone"), name).to_owned();
+        let button = button.accessible_name(format!("{}: {shown}", self.label));
         let button = button.on_hover_text(format!("{}\n{shown}", self.label));
         let mut picked = None;
         Popup::menu(&button).show(|ui| {

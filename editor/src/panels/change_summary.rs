@@ -2,12 +2,12 @@
 //! when it is redone.
 
 use super::count_text::{count, grouped};
-use super::difference_text::difference_text;
+use super::difference_text::{ShownScale, difference_text};
 use dragonfly_document::{HistoryView, View};
 use std::sync::Arc;
 
 /// Describes what leads from one view of a model to a newer one; `None` if nothing was done, or a gesture continues.
-pub(super) fn describe_change(old: &View, new: &View, frame_rate: u32) -> Option<String> {
+pub(super) fn describe_change(old: &View, new: &View, scale: ShownScale) -> Option<String> {
     let (before, now) = (&*old.history, &*new.history);
     if same_steps(before, now) {
         let (few, many) = (before.done.min(now.done), before.done.max(now.done));
@@ -27,7 +27,7 @@ pub(super) fn describe_change(old: &View, new: &View, frame_rate: u32) -> Option
         return Some(format!("Cancelled: {}", step(before, gone)));
     }
     let last = now.done.checked_sub(1)?;
-    let parts = [Some(step(now, last)), keys(old, new), difference(old, new, frame_rate)];
+    let parts = [Some(step(now, last)), keys(old, new), difference(old, new, scale)];
     Some(parts.into_iter().flatten().collect::<Vec<_>>().join("  ·  "))
 }
 
@@ -68,14 +68,14 @@ fn step(history: &HistoryView, at: usize) -> String {
 }
 
 /// Returns how far the last step moves bones, where it is a step for which that is shown.
-fn difference(old: &View, new: &View, frame_rate: u32) -> Option<String> {
+fn difference(old: &View, new: &View, scale: ShownScale) -> Option<String> {
     if !new.history.shows_difference || old.slots.len() != new.slots.len() {
         return None;
     }
     let mut both = old.slots.iter().zip(new.slots.iter());
     let (before, now) = both.find(|(before, now)| !Arc::ptr_eq(before, now))?;
     let skeleton = &new.loaded.model.animation.skeleton;
-    difference_text((before.shown(), now.shown()), skeleton, frame_rate)
+    difference_text((before.shown(), now.shown()), skeleton, scale)
 }
 
 /// Returns how many keys were added or deleted, if the takes are the same ones.

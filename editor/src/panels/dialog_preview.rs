@@ -1,5 +1,6 @@
 //! The second skeleton that a dialog shows in the viewport.
 
+use dragonfly_anim::data::BoneIndex;
 use glam::Vec3;
 
 /// The second skeleton that a dialog shows in the viewport while it is open.
@@ -21,5 +22,7 @@ pub enum DialogPreview {
         scale: f32,
         /// Its distance from its place.
         offset: Vec3,
+        /// The bone of it that moves the selected bone.
+        marked: Option<BoneIndex>,
     },
 }

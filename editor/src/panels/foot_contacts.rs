@@ -27,6 +27,8 @@ pub struct FootContacts {
 struct MeasuredTake {
     take: Arc<Take>,
     rate: u32,
+    /// Meters in one unit of length.
+    unit: f32,
     /// `None` when everything is measured.
     meter: Option<SlideMeter>,
 }
@@ -47,8 +49,8 @@ impl FootContacts {
         self.measured.as_ref().is_some_and(|measured| measured.meter.is_some())
     }
 
-    /// Reads the contacts of a take and measures a part of it.
-    pub(super) fn update(&mut self, view: Option<&View>, take: Option<usize>, rate: u32) {
+    /// Reads the contacts of a take and measures a part of it; `unit` is the number of meters in one unit of the model.
+    pub(super) fn update(&mut self, view: Option<&View>, take: Option<usize>, rate: u32, unit: f32) {
         let shown = view.zip(take).and_then(|(view, take)| {
             let extras = &view.slots.get(take)?.original.extras;
             Some((view, extras, extras.get(CONTACTS)?, view.takes.get(take)?))
@@ -67,15 +69,17 @@ impl FootContacts {
             (self.text, self.skeleton) = (Some(Arc::clone(text)), Some(Arc::clone(skeleton)));
             self.measured = None;
         }
-        self.measure(take, skeleton, rate);
+        self.measure(take, skeleton, rate, unit);
     }
 
-    fn measure(&mut self, take: &Arc<Take>, skeleton: &Skeleton, rate: u32) {
+    fn measure(&mut self, take: &Arc<Take>, skeleton: &Skeleton, rate: u32, unit: f32) {
         let contacts = self.track.contacts();
-        let same = |measured: &&mut MeasuredTake| Arc::ptr_eq(&measured.take, take) && measured.rate == rate;
+        let same = |measured: &&mut MeasuredTake| {
+            Arc::ptr_eq(&measured.take, take) && (measured.rate, measured.unit) == (rate, unit)
+        };
         if self.measured.as_mut().filter(same).is_none() {
-            let meter = Some(SlideMeter::new(contacts, rate as f32, Axis::Y, 1.0));
-            self.measured = Some(MeasuredTake { take: Arc::clone(take), rate, meter });
+            let meter = Some(SlideMeter::new(contacts, rate as f32, Axis::Y, unit));
+            self.measured = Some(MeasuredTake { take: Arc::clone(take), rate, unit, meter });
         }
         let Some(measured) = &mut self.measured else { return };
         if let Some(meter) = &mut measured.meter

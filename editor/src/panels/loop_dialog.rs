@@ -23,7 +23,7 @@ use std::sync::Arc;
 
 /// Width of the dialog, points.
 const WIDTH: f32 = 420.0;
-/// Distance on the ground, in the model's unit, from which on a figure is taken to travel.
+/// Distance on the ground, meters, from which on a figure is taken to travel.
 const TRAVELS: f32 = 0.1;
 /// Gaps below these are not seen: millimeters and degrees.
 const SMALL: [f32; 2] = [1.0, 0.5];
@@ -110,7 +110,7 @@ impl LoopDialog {
             self.travel = self.travel.and_then(|travel| shift.bone(travel));
             self.guessed = self.guessed.take().map(|(_, at)| (Arc::clone(skeleton), at));
         }
-        self.guess(skeleton, take, shown);
+        self.guess(skeleton, take, shown, context.unit.meters());
         let (rate, name) = (context.frame_rate, TakeRef::Index(shown));
         self.choose_travel(ui, context);
         if !self.gaps.as_ref().is_some_and(|gaps| gaps.is_of(take, rate, self.travel)) {
@@ -121,7 +121,8 @@ impl LoopDialog {
         self.close(ui, &name, rate, requests);
         self.move_start(ui, &name, rate, requests);
         ui.separator();
-        self.candidates.show(ui, (take, skeleton, rate, self.travel), |range, wanted| {
+        let unit = context.unit.millimeters();
+        self.candidates.show(ui, (take, skeleton, rate, self.travel), unit, |range, wanted| {
             requests.push(Request::Timeline(KeysRequest::Range(Some(range))));
             if wanted {
                 let [from, to] = range;
@@ -132,7 +133,7 @@ impl LoopDialog {
     }
 
     /// Guesses which bone travels: the hips, if they do not come back to where they were.
-    fn guess(&mut self, skeleton: &Arc<Skeleton>, take: &Take, shown: usize) {
+    fn guess(&mut self, skeleton: &Arc<Skeleton>, take: &Take, shown: usize, unit: f32) {
         let is_guessed =
             self.guessed.as_ref().is_some_and(|(of, at)| Arc::ptr_eq(of, skeleton) && *at == shown);
         if is_guessed {
@@ -142,7 +143,7 @@ impl LoopDialog {
         self.travel = guess_hips(skeleton).filter(|&hips| {
             let Ok(frames) = TakeFrames::ends(take, skeleton, 30.0) else { return false };
             let way = frames.position(frames.len() - 1, hips) - frames.position(0, hips);
-            way.x.hypot(way.z) > TRAVELS
+            way.x.hypot(way.z) * unit > TRAVELS
         });
     }
 
@@ -162,8 +163,9 @@ impl LoopDialog {
     fn list(&self, ui: &mut Ui, context: &PanelContext<'_>) {
         let theme = Theme::of(ui);
         let Some(gaps) = &self.gaps else { return };
+        let unit = context.unit.millimeters();
         let is_seen =
-            |gap: &BoneLoopGap| 1000.0 * gap.position > SMALL[0] || gap.rotation.to_degrees() > SMALL[1];
+            |gap: &BoneLoopGap| unit * gap.position > SMALL[0] || gap.rotation.to_degrees() > SMALL[1];
         let seen = gaps.worst.iter().filter(|gap| is_seen(gap)).count();
         let text = match (gaps.is_short, seen) {
             (true, _) => "The last frame is missing: the take repeats if it goes on for one frame".to_owned(),
@@ -190,8 +192,8 @@ impl LoopDialog {
                         ui.label(name);
                         let color = if is_seen(gap) { theme.text } else { theme.weak };
                         for text in [
-                            format!("{:.1} mm", 1000.0 * gap.position),
-                            format!("{:.0} mm/s", 1000.0 * gap.velocity),
+                            format!("{:.1} mm", unit * gap.position),
+                            format!("{:.0} mm/s", unit * gap.velocity),
                             format!("{:.1}°", gap.rotation.to_degrees()),
                         ] {
                             ui.label(RichText::new(text).color(color));

@@ -43,9 +43,15 @@ struct CandidateSearch {
 type SearchedTake<'a> = (&'a Arc<Take>, &'a Skeleton, u32, Option<BoneIndex>);
 
 impl LoopCandidates {
-    /// Draws the button and the list. Calls `choose` with a range of time in seconds that was clicked, and whether the take is to be
+    /// Draws the button and the list. `millimeters` are those in one unit of the model. Calls `choose` with a range of time in seconds that was clicked, and whether the take is to be
     /// trimmed to it.
-    pub(super) fn show(&mut self, ui: &mut Ui, of: SearchedTake<'_>, mut choose: impl FnMut([f32; 2], bool)) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        of: SearchedTake<'_>,
+        millimeters: f32,
+        mut choose: impl FnMut([f32; 2], bool),
+    ) {
         let (take, skeleton, rate, travel) = of;
         ui.horizontal(|ui| {
             let button = ui.button("Find loops");
@@ -80,7 +86,7 @@ impl LoopCandidates {
                             frames[0],
                             frames[1],
                             range[1] - range[0],
-                            1000.0 * found.cost
+                            millimeters * found.cost
                         );
                         let play = ui.add(Button::new(text).frame_when_inactive(false));
                         widgets::hint_beside(&play, "Sets the play range to this loop");

@@ -1,5 +1,5 @@
 //! Marks of bones, remembered for each file: which bones are muted, soloed, locked and pinned, and towards which bone elbows
-//! bend; selection sets; the frame rate that was chosen for the file; its reference picture and its sound. They are stored with the program's settings and never in the model's file.
+//! bend; selection sets; the frame rate and the unit of length that were chosen for the file; its reference picture and its sound. They are stored with the program's settings and never in the model's file.
 
 use super::keys::channel::BoneNames;
 use super::keys::{BoneFlag, BoneFlags};
@@ -33,6 +33,9 @@ struct FileMarks {
     pole: Option<BoneRef>,
     #[serde(skip_serializing_if = "Option::is_none")]
     frame_rate: Option<u32>,
+    /// Meters in one unit of length, where the user set them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    meters_per_unit: Option<f32>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     sets: Vec<SetMarks>,
     /// Its path is relative to the folder of the file.
@@ -85,6 +88,7 @@ struct Noted {
     pins: Vec<BoneIndex>,
     pole: Option<BoneIndex>,
     frame_rate: Option<u32>,
+    meters_per_unit: Option<f32>,
     /// Version of the selection sets.
     sets: u64,
     /// Version of the reference picture.
@@ -133,6 +137,8 @@ pub(super) struct BoneMarks<'a> {
     pub(super) pole: Option<BoneIndex>,
     /// The frame rate that was chosen for the file.
     pub(super) frame_rate: Option<u32>,
+    /// Meters in one unit of length that were set for the file.
+    pub(super) meters_per_unit: Option<f32>,
     /// The selection sets.
     pub(super) sets: &'a SelectionSets,
     /// The reference picture.
@@ -152,6 +158,8 @@ pub(super) struct RecalledMarks {
     pub(super) pole: Option<BoneIndex>,
     /// The frame rate that was chosen for the file.
     pub(super) frame_rate: Option<u32>,
+    /// Meters in one unit of length that were set for the file.
+    pub(super) meters_per_unit: Option<f32>,
     /// The selection sets.
     pub(super) sets: Vec<SelectionSet>,
     /// The reference picture.
@@ -170,13 +178,13 @@ impl Marks {
     pub(super) fn note(&mut self, view: &View, now: BoneMarks<'_>) {
         let same = |noted: &Noted| {
             let versions = (noted.version, noted.sets, noted.reference, noted.sound);
-            (&noted.path, versions, &noted.pins[..], noted.pole, noted.frame_rate)
+            (&noted.path, versions, &noted.pins[..], noted.pole, (noted.frame_rate, noted.meters_per_unit))
                 == (
                     &view.file.path,
                     (now.flags.version(), now.sets.version(), now.reference.version(), now.sound.version()),
                     now.pins,
                     now.pole,
-                    now.frame_rate,
+                    (now.frame_rate, now.meters_per_unit),
                 )
         };
         if self.noted.as_ref().is_some_and(same) {
@@ -220,6 +228,7 @@ impl Marks {
             pins: marks.pins.iter().filter_map(index).collect(),
             pole: marks.pole.as_ref().and_then(index),
             frame_rate: marks.frame_rate,
+            meters_per_unit: marks.meters_per_unit,
             sets: marks.sets.iter().map(set).filter(|set| !set.bones.is_empty()).collect(),
             reference: marks.reference.clone().map(|stored| {
                 let file = found_again(view, &stored.file);
@@ -240,11 +249,21 @@ impl Marks {
 
 impl Noted {
     fn of(view: &View, now: BoneMarks<'_>) -> Self {
-        let BoneMarks { flags, pins, pole, frame_rate, sets, reference, sound } = now;
+        let BoneMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } = now;
         let (reference, sound) = (reference.version(), sound.version());
         let path = view.file.path.clone();
         let sets = sets.version();
-        Self { path, version: flags.version(), pins: pins.to_vec(), pole, frame_rate, sets, reference, sound }
+        Self {
+            path,
+            version: flags.version(),
+            pins: pins.to_vec(),
+            pole,
+            frame_rate,
+            meters_per_unit,
+            sets,
+            reference,
+            sound,
+        }
     }
 }
 
@@ -262,7 +281,7 @@ fn found_again(view: &View, stored: &Path) -> PathBuf {
 impl FileMarks {
     /// Returns the marks of a model as they are stored.
     fn of(path: String, folder: Option<&Path>, skeleton: &Skeleton, now: BoneMarks<'_>) -> Self {
-        let BoneMarks { flags, pins, pole, frame_rate, sets, reference, sound } = now;
+        let BoneMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } = now;
         let stored = |file: &Path| folder.map_or_else(|| file.to_owned(), |folder| relative_to(folder, file));
         let reference = reference.settings().is_chosen().then(|| {
             let settings = reference.settings();
@@ -287,6 +306,7 @@ impl FileMarks {
             pins: pins.iter().map(|&bone| names.reference(bone)).collect(),
             pole: pole.map(|bone| names.reference(bone)),
             frame_rate,
+            meters_per_unit,
             sets: sets.list().iter().map(set).collect(),
             reference,
             sound,

@@ -25,6 +25,8 @@ pub enum Overlay {
     RootMotion,
     /// The gap of a take that repeats.
     Loop,
+    /// The unit of length of the model.
+    ModelSize,
     /// The reference picture.
     Reference,
 }

@@ -4,6 +4,7 @@ use super::context::PanelContext;
 use super::export::ExportDialog;
 use super::loop_dialog::LoopDialog;
 use super::mirror_pairs::MirrorDialog;
+use super::model_size;
 use super::open_path::{OpenPathDialog, PathUse};
 use super::overlay_title;
 use super::palette::Palette;
@@ -62,6 +63,7 @@ impl Overlays {
             Overlay::Retarget => self.retarget.show(ui, fresh, context, requests),
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::Loop => self.loops.show(ui, context, requests),
+            Overlay::ModelSize => model_size::show(ui, context, requests),
             Overlay::Reference => self.reference.show(ui, context, requests),
             Overlay::Export => self.export.show(ui, fresh, context, requests),
             Overlay::OpenPath => self.path.show(ui, fresh, (PathUse::Open, context), requests),

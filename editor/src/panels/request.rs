@@ -71,6 +71,8 @@ pub enum Request {
     Repeat(dragonfly_picture::playback::Repeat),
     /// Sets the frame rate of the timeline, frames per second.
     FrameRate(u32),
+    /// Sets the meters in one unit of the model; `None`: guessed from its size.
+    LengthUnit(Option<f32>),
     /// Sets the scale of the window's content.
     Scale(f32),
     /// Replaces the keys of commands.

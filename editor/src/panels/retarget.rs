@@ -215,15 +215,18 @@ impl RetargetDialog {
                 |roles: &[Option<BoneRole>], bone: usize| roles.get(bone).is_some_and(Option::is_some);
             let own = |bone: usize| is_part(&guess.target.of, bone);
             let others = |bone: usize| is_part(&guess.source.of, bone);
-            SourcePlace::beside(target, &source.model.animation.skeleton, [&own, &others])
+            let animation = &source.model.animation;
+            let take = animation.takes.get(self.take).map(|take| &**take);
+            SourcePlace::beside(target, &animation.skeleton, take, [&own, &others])
         });
         let switch = ui.checkbox(&mut self.shows_source, "Show the source beside the model");
         widgets::hint_beside(
             &switch,
-            "Draws the skeleton of the file in the viewport, at the size of this model, in the pose of its take at the time of the playhead",
+            "Draws the skeleton of the file in the viewport, at the size of this model, in the pose of its take at the time of the playhead; the bone that moves the selected one is emphasized",
         );
         let SourcePlace { scale, offset } = place;
-        let source = DialogPreview::Source { take: self.take, scale, offset };
+        let marked = context.selected().and_then(|bone| self.source_of.get(bone as usize).copied().flatten());
+        let source = DialogPreview::Source { take: self.take, scale, offset, marked };
         let preview = if self.shows_source { source } else { DialogPreview::Nothing };
         if preview != context.preview {
             requests.push(Request::Preview(preview));
@@ -270,7 +273,7 @@ impl RetargetDialog {
                 ScrollArea::vertical().max_height(10.0 * ROW).show(ui, |ui| {
                     for take in 0..takes.len() {
                         if ui.add(Button::selectable(take == self.take, name(take))).clicked() {
-                            self.take = take;
+                            (self.take, self.place) = (take, None);
                         }
                     }
                 });

@@ -63,7 +63,8 @@ impl State {
     /// Returns the request to check the take that is shown for problems, once for each of its states while problems are shown.
     pub fn wanted_check(&mut self) -> Option<Effect> {
         let (take, effect) = take_findings::check(&self.workspace.read())?;
-        self.workspace.findings.request(&take).then_some(effect)
+        let unit = self.workspace.unit.meters();
+        self.workspace.findings.request(&take, unit).then_some(effect)
     }
 
     /// Shows the problems of a take that was checked.

@@ -1,6 +1,7 @@
 //! The remark in the status line about the newest step, which is written again when a drag that belongs to the step has ended.
 
 use super::change_summary::describe_change;
+use super::difference_text::ShownScale;
 use super::status::Status;
 use dragonfly_document::View;
 
@@ -19,11 +20,11 @@ impl StepRemark {
 
     /// Writes the remark again where the step does something else by now, as after a drag; does nothing once another message
     /// followed.
-    pub(super) fn update(&mut self, now: &View, frame_rate: u32, status: &mut Status) {
+    pub(super) fn update(&mut self, now: &View, scale: ShownScale, status: &mut Status) {
         let Some((before, said)) = self.noted.as_mut().filter(|(_, said)| *said == status.said()) else {
             return;
         };
-        if let Some(text) = describe_change(before, now, frame_rate) {
+        if let Some(text) = describe_change(before, now, scale) {
             status.replace_last(text);
             *said = status.said();
         }

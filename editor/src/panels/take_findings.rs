@@ -12,8 +12,8 @@ use std::sync::Arc;
 pub struct TakeFindings {
     /// Whether problems are shown.
     on: bool,
-    /// The take for which a check was requested last.
-    requested: Option<Arc<Take>>,
+    /// The take for which a check was requested last, and the meters in one unit of length.
+    requested: Option<(Arc<Take>, f32)>,
     checked: Option<CheckedTake>,
 }
 
@@ -41,12 +41,12 @@ impl TakeFindings {
         }
     }
 
-    /// Notes that a check of `take` is requested. Returns whether it is a new one.
-    pub(super) fn request(&mut self, take: &Arc<Take>) -> bool {
-        let is_new =
-            self.on && !self.requested.as_ref().is_some_and(|requested| Arc::ptr_eq(requested, take));
+    /// Notes that a check of `take` is requested, with `unit` meters in one unit of the model. Returns whether it is a new one.
+    pub(super) fn request(&mut self, take: &Arc<Take>, unit: f32) -> bool {
+        let same = |(of, with): &(Arc<Take>, f32)| Arc::ptr_eq(of, take) && *with == unit;
+        let is_new = self.on && !self.requested.as_ref().is_some_and(same);
         if is_new {
-            self.requested = Some(Arc::clone(take));
+            self.requested = Some((Arc::clone(take), unit));
         }
         is_new
     }
@@ -59,6 +59,11 @@ pub(super) fn check(context: &PanelContext<'_>) -> Option<(Arc<Take>, Effect)> {
     }
     let take = Arc::clone(context.shown_take()?);
     let skeleton = Arc::clone(&context.loaded()?.model.animation.skeleton);
-    let check = TakeCheck { take: Arc::clone(&take), skeleton, rate: context.frame_rate as f32 };
+    let check = TakeCheck {
+        take: Arc::clone(&take),
+        skeleton,
+        rate: context.frame_rate as f32,
+        meters_per_unit: context.unit.meters(),
+    };
     Some((take, Effect::File(FileAction::Send(DocumentMessage::CheckTake(check)))))
 }

@@ -5,11 +5,12 @@ use super::icons::Icon;
 use super::style::{self, GRID, RADIUS, ROW};
 use super::theme::Theme;
 use egui::accesskit::Role;
-use egui::text::CCursorRange;
+use egui::text::{CCursor, CCursorRange};
 use egui::{
     Align2, Color32, Context, CornerRadius, FontId, Id as WidgetId, Rect, RectAlign, Response, RichText,
     Sense, TextEdit, TextStyle, Tooltip, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
+use std::ops::Range;
 
 /// Shows a tooltip on the right of a widget.
 pub(super) fn hint_beside(response: &Response, hint: impl Into<WidgetText>) {
@@ -62,8 +63,14 @@ fn colored_icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool, lit: [Colo
 
 /// Selects all of `text` in the text field `id`, so that typing replaces it.
 pub(super) fn select_all(context: &Context, id: WidgetId, text: &str) {
+    select_characters(context, id, 0..text.chars().count());
+}
+
+/// Selects a range of characters in the text field `id`, so that typing replaces them.
+pub(super) fn select_characters(context: &Context, id: WidgetId, range: Range<usize>) {
     let mut state = TextEdit::load_state(context, id).unwrap_or_default();
-    state.cursor.set_char_range(Some(CCursorRange::select_all_str(text)));
+    let [start, end] = [range.start, range.end].map(CCursor::new);
+    state.cursor.set_char_range(Some(CCursorRange::two(start, end)));
     state.store(context, id);
 }
 

@@ -12,6 +12,7 @@ use super::foot_contacts::FootContacts;
 use super::frame_rate::FrameRate;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
+use super::length_unit::LengthUnit;
 use super::marks::Marks;
 use super::open_model::OpenModel;
 use super::player::Player;
@@ -47,6 +48,8 @@ pub(super) struct Workspace {
     pub(super) player: Player,
     /// The frame rate of the document.
     pub(super) frame_rate: FrameRate,
+    /// The unit of length of the model.
+    pub(super) unit: LengthUnit,
     /// Selected, hidden and pinned bones.
     pub(super) bones: SelectedBones,
     /// The selection sets of the model.
@@ -114,6 +117,7 @@ impl Workspace {
             posed: PoseCache::default(),
             player: Player::new(settings.speed, settings.repeat, now),
             frame_rate: FrameRate::default(),
+            unit: LengthUnit::default(),
             bones: SelectedBones::default(),
             sets: SelectionSets::default(),
             keys: KeyEditing::of(settings.timeline),
@@ -165,6 +169,7 @@ impl Workspace {
             playback: self.player.playback(),
             now: self.player.now(),
             frame_rate: self.frame_rate.get(),
+            unit: self.unit,
             keys: &self.keys,
             contacts: &self.contacts,
             findings: &self.findings,

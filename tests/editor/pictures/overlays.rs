@@ -35,6 +35,7 @@ overlays! {
     Overlay::Export => "export", vec2(640.0, 560.0), [Empty, Typical], "the list of takes is one line";
     Overlay::MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical], "more bones only make the list scroll";
     Overlay::Retarget => "retarget", vec2(720.0, 560.0), [Empty, Typical, Crowded], "";
+    Overlay::ModelSize => "model-size", vec2(560.0, 320.0), [Typical], "a model has one size";
     Overlay::Loop => "loop", vec2(640.0, 560.0), [Empty, Typical, Crowded], "";
     Overlay::Reference => "reference", vec2(560.0, 480.0), [Typical], "the dialog is the same whatever is open";
     Overlay::RootMotion => "root-motion", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";

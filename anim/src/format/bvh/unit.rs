@@ -5,6 +5,7 @@
 
 use super::hierarchy::JointTable;
 use super::motion::MotionRows;
+use crate::model_unit::longest_way;
 use glam::DVec3;
 use std::ops::RangeInclusive;
 
@@ -61,22 +62,6 @@ fn way_of(hierarchy: &JointTable, row: &[f64]) -> f64 {
         let own = row.get(joint.first..joint.first + joint.channels.len()).unwrap_or(&[]);
         (joint.parent, joint.channels.translation(joint.offset, own).length())
     }))
-}
-
-/// Returns the length of the longest way between two joints, each given by its parent and its distance from it; parents come
-/// before their children.
-pub(super) fn longest_way(
-    joints: impl DoubleEndedIterator<Item = (Option<usize>, f64)> + ExactSizeIterator,
-) -> f64 {
-    let mut below = vec![0.0_f64; joints.len()];
-    let mut longest = 0.0_f64;
-    for (index, (parent, distance)) in joints.enumerate().rev() {
-        let Some(parent) = parent else { continue };
-        let way = below[index] + distance;
-        longest = longest.max(below[parent] + way);
-        below[parent] = below[parent].max(way);
-    }
-    longest
 }
 
 /// Returns whether the up axis of the figure seems to be z: at rest it is flat along y, as a human with spread arms is along the

@@ -11,6 +11,7 @@ use crate::data::{ModelData, Skeleton};
 use crate::format::losses::Losses;
 use crate::format::names::UniqueNames;
 use crate::format::{ExportError, WholeFile};
+use crate::model_unit::longest_way;
 use glam::DVec3;
 use std::fmt::Write;
 
@@ -183,7 +184,7 @@ impl JointTree {
     /// Returns the length in meters of the longest way along the bones.
     fn longest_way(&self, skeleton: &Skeleton, take: &FramePoses) -> f64 {
         let parents = skeleton.bones.iter().map(|bone| bone.parent.map(|parent| parent as usize));
-        unit::longest_way(parents.enumerate().map(|(bone, parent)| (parent, take.offset(bone).length())))
+        longest_way(parents.enumerate().map(|(bone, parent)| (parent, take.offset(bone).length())))
     }
 
     fn write_row(&self, take: &FramePoses, frame: usize, last: &mut [[f64; CHANNELS]], text: &mut String) {

@@ -7,6 +7,7 @@
 
 mod cmu;
 mod common;
+mod hips;
 mod kaykit;
 mod mixamo;
 mod part;
@@ -45,7 +46,8 @@ pub struct SkeletonRoles {
 const FEWEST: usize = 6;
 
 impl SkeletonRoles {
-    /// Recognizes the parts of a skeleton by the convention that recognizes most.
+    /// Recognizes the parts of a skeleton by the convention that recognizes most. The hips are the bone that carries the legs, too,
+    /// whatever it is called.
     pub fn guess(skeleton: &Skeleton) -> Self {
         let names: Vec<String> = skeleton.bones.iter().map(|bone| simplified(&bone.name)).collect();
         let mut best = Self { convention: None, of: vec![None; skeleton.len()] };
@@ -61,6 +63,7 @@ impl SkeletonRoles {
                 best = Self { convention: Some(convention.name), of: roles };
             }
         }
+        hips::carry_legs(&mut best.of, skeleton);
         best
     }
 

@@ -1,10 +1,10 @@
 //! Finds the contacts of a take and stores them with it.
 
-use super::contact_span::detected;
+use super::contact_span::{detected, unit};
 use super::kind::EditKind;
 use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef};
-use crate::adapter::plan::{Transaction, contacts, finite};
+use crate::adapter::plan::{Transaction, contacts};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::contact::{ContactThresholds, feet_by_name};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
@@ -23,20 +23,12 @@ pub struct DetectContacts {
     /// The bones. Where empty, those whose names say that they are feet.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bones: Vec<BoneRef>,
-    /// Meters in one unit of length of the model: 1 for glTF, 0.01 for centimeters.
-    #[serde(default = "one", skip_serializing_if = "is_one")]
-    pub meters_per_unit: f32,
+    /// Meters in one unit of length of the model: 1 for glTF, 0.01 for centimeters. By default guessed from the size of the figure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub meters_per_unit: Option<f32>,
     /// Frames per second; by default the lowest usual rate that fits the keys of the take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
-}
-
-fn one() -> f32 {
-    1.0
-}
-
-fn is_one(number: &f32) -> bool {
-    *number == 1.0
 }
 
 map_references!(DetectContacts { take, bones, meters_per_unit, rate });
@@ -65,10 +57,7 @@ impl EditKind for DetectContacts {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let id = work.take(&self.take)?;
-        let meters_per_unit = finite("the unit", self.meters_per_unit)?;
-        if meters_per_unit <= 0.0 {
-            return Err(EditError::Number { what: "the unit", value: meters_per_unit });
-        }
+        let meters_per_unit = unit(work, self.meters_per_unit)?;
         let mut bones: Vec<BoneIndex> =
             self.bones.iter().map(|bone| work.bone(bone)).collect::<Result<_, _>>()?;
         if bones.is_empty() {
@@ -94,6 +83,7 @@ impl EditKind for DetectContacts {
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let rate = from.optional(|from| from.between(5.0, 60.0));
-        Self { take: from.take(), bones: vec![from.bone()], meters_per_unit: from.choice([1.0, 0.01]), rate }
+        let meters_per_unit = from.choice([None, Some(1.0), Some(0.01)]);
+        Self { take: from.take(), bones: vec![from.bone()], meters_per_unit, rate }
     }
 }

@@ -1,6 +1,6 @@
 //! Locks feet to the ground.
 
-use super::contact_span::{detected, named, stored_of_limbs};
+use super::contact_span::{detected, named, stored_of_limbs, unit};
 use super::kind::{EditKind, LayerUse};
 use super::map_references::map_references;
 use super::{Arbitrary, ContactSpan, EditedBones, Example, TakeRef};
@@ -30,13 +30,16 @@ pub struct LockContacts {
     /// Frames per second of the new keys; by default the lowest usual rate that fits the keys of the take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
+    /// Meters in one unit of length of the model, for contacts that are to be found. By default guessed from the size of the figure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub meters_per_unit: Option<f32>,
 }
 
 fn four() -> u32 {
     4
 }
 
-map_references!(LockContacts { take, contacts, ease, rate });
+map_references!(LockContacts { take, contacts, ease, rate, meters_per_unit });
 
 impl EditKind for LockContacts {
     const EXAMPLE: Example = Example {
@@ -69,6 +72,7 @@ impl EditKind for LockContacts {
         let id = work.take(&self.take)?;
         let take = Arc::clone(&work.slot(id).result);
         let rate = self.rate.unwrap_or_else(|| frame_rate(&take));
+        let meters_per_unit = unit(work, self.meters_per_unit)?;
         let mut contacts = named(work, &self.contacts)?;
         let feet = feet_by_name(work.skeleton());
         if contacts.is_empty() {
@@ -77,7 +81,8 @@ impl EditKind for LockContacts {
             contacts.retain(|contact| feet.contains(&contact.bone));
         }
         if contacts.is_empty() {
-            contacts = detected(work, &take, &feet, rate, &ContactThresholds::default())?;
+            let thresholds = ContactThresholds { meters_per_unit, ..ContactThresholds::default() };
+            contacts = detected(work, &take, &feet, rate, &thresholds)?;
         }
         if contacts.is_empty() {
             return Err(EditError::Nothing("no foot is in contact with the ground"));
@@ -94,6 +99,7 @@ impl EditKind for LockContacts {
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let contacts = (0..from.below(3)).map(|_| ContactSpan::arbitrary(from)).collect();
         let rate = from.optional(|from| from.between(5.0, 60.0));
-        Self { take: from.take(), contacts, ease: from.below(8) as u32, rate }
+        let meters_per_unit = from.choice([None, Some(1.0), Some(0.01)]);
+        Self { take: from.take(), contacts, ease: from.below(8) as u32, rate, meters_per_unit }
     }
 }

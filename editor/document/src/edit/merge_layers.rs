@@ -4,25 +4,30 @@ use super::kind::{EditKind, LayerUse};
 use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, Property, TakeRef};
 use crate::adapter::kind::{ChannelKind, with_kind};
-use crate::adapter::plan::{Transaction, layer, rewrite};
-use crate::adapter::{EditError, LayerVersions};
+use crate::adapter::plan::{Transaction, finite, layer, rewrite};
+use crate::adapter::{EditError, LayerVersions, TakeId};
 use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
+use dragonfly_anim::frames::frame_rate;
 use dragonfly_anim::layers::{
-    LayerChannel, LayerMode, LayerRule, LayerSettings, flatten, flatten_channel, played,
+    AddedKeys, LayerChannel, LayerMode, LayerRule, LayerSettings, flatten_channel_with, flatten_with, played,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Merges a layer into the one below it; the same is shown then. Where the edit names a take, all its layers become keys of it.
+/// Merges a layer into the one below it; the same is shown then at each frame. Keys are where take and layers have some, and on whole frames. Where the edit names a take, all its layers become keys of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MergeLayers {
     /// The layer to merge with the one below it, the lowest one with the take; or the take, to merge all.
     pub take: TakeRef,
+    /// Frames per second of keys that are needed between those of take and layers; by default the lowest usual rate that fits the keys
+    /// of the take.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate: Option<f32>,
 }
 
-map_references!(MergeLayers { take });
+map_references!(MergeLayers { take, rate });
 
 impl EditKind for MergeLayers {
     const EXAMPLE: Example = Example {
@@ -48,7 +53,7 @@ impl EditKind for MergeLayers {
             let take = work.take(&self.take)?;
             let count = work.slot(take).layers().len();
             return if count > 0 {
-                into_take(work, take, count)
+                into_take(work, take, count, self.rate)
             } else {
                 Err(EditError::Nothing("the take has no layers"))
             };
@@ -59,10 +64,11 @@ impl EditKind for MergeLayers {
             return Err(EditError::Nothing("a layer that does nothing cannot be merged"));
         }
         if index == 0 {
-            return into_take(work, base, 1);
+            return into_take(work, base, 1, self.rate);
         }
         let (lower, upper) = (&layers[index - 1], &layers[index]);
-        let (settings, take) = merged(work.skeleton(), lower, upper)?;
+        let rate = rate_of(self.rate, &work.slot(base).result)?;
+        let (settings, take) = merged(work.skeleton(), lower, upper, rate)?;
         let mut merged = layer::empty(work, base, settings);
         Arc::make_mut(&mut merged.keys).set_keys(take);
         layer::replace(work, base, |layers| {
@@ -71,15 +77,17 @@ impl EditKind for MergeLayers {
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { take: if from.flag() { from.layer() } else { from.take() } }
+        let take = if from.flag() { from.layer() } else { from.take() };
+        Self { take, rate: from.optional(|from| from.between(5.0, 60.0)) }
     }
 }
 
 /// Makes the lowest `count` layers keys of their take.
-fn into_take(work: &mut Transaction, take: crate::adapter::TakeId, count: usize) -> Result<(), EditError> {
+fn into_take(work: &mut Transaction, take: TakeId, count: usize, rate: Option<f32>) -> Result<(), EditError> {
     let slot = work.slot(take);
+    let rate = rate_of(rate, &slot.result)?;
     let layers: Vec<_> = slot.layers()[..count].iter().map(LayerVersions::flat).collect();
-    let flat = flatten(&slot.result, &layers, work.skeleton());
+    let flat = flatten_with(&slot.result, &layers, work.skeleton(), AddedKeys::OnFrames(rate));
     layer::replace(work, take, |layers| {
         layers.drain(..count);
     })?;
@@ -87,11 +95,18 @@ fn into_take(work: &mut Transaction, take: crate::adapter::TakeId, count: usize)
     Ok(())
 }
 
+/// Returns the frame rate of new keys.
+fn rate_of(rate: Option<f32>, take: &Take) -> Result<f32, EditError> {
+    let rate = finite("the frame rate", rate.unwrap_or_else(|| frame_rate(take)))?;
+    if rate > 0.0 { Ok(rate) } else { Err(EditError::Number { what: "the frame rate", value: rate }) }
+}
+
 /// Returns the settings and the keys of one layer that does what two do.
 fn merged(
     skeleton: &Skeleton,
     lower: &LayerVersions,
     upper: &LayerVersions,
+    rate: f32,
 ) -> Result<(LayerSettings, Take), EditError> {
     let (low, high) = (&lower.settings, &upper.settings);
     if low.is_muted || high.is_muted || low.is_solo != high.is_solo {
@@ -113,7 +128,10 @@ fn merged(
     let mut take = Take { tracks: lower.keys.result.tracks.clone(), ..Take::default() };
     for bone in 0..take.tracks.len().min(skeleton.len()) as u32 {
         for property in Property::ALL {
-            with_kind!(property, merged_channel::<K>(&mut take.tracks[bone as usize], bone, lower, upper));
+            with_kind!(
+                property,
+                merged_channel::<K>(&mut take.tracks[bone as usize], bone, (lower, upper), rate)
+            );
         }
     }
     let settings =
@@ -124,8 +142,8 @@ fn merged(
 fn merged_channel<K: ChannelKind>(
     track: &mut Track,
     bone: u32,
-    lower: &LayerVersions,
-    upper: &LayerVersions,
+    (lower, upper): (&LayerVersions, &LayerVersions),
+    rate: f32,
 ) {
     let none = Channel::default();
     let keys = |layer: &'_ LayerVersions| -> Channel<K::Value> {
@@ -145,8 +163,8 @@ fn merged_channel<K: ChannelKind>(
             let identity = Channel::new(start, [<K::Rule as LayerRule>::IDENTITY], Interpolation::Linear);
             // A channel without keys would add a key at 0 s where all layers begin later.
             let base = if low.len().max(high.len()) > 1 { &none } else { &identity };
-            flatten_channel::<K::Rule>(base, &layers, <K::Rule as LayerRule>::IDENTITY)
-                .unwrap_or(none.clone())
+            let (identity, added) = (<K::Rule as LayerRule>::IDENTITY, AddedKeys::OnFrames(rate));
+            flatten_channel_with::<K::Rule>(base, &layers, identity, added).unwrap_or(none.clone())
         }
     };
     *K::channel_mut(track) = merged;

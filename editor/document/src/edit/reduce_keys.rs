@@ -7,6 +7,7 @@ use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, contacts};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
+use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_anim::reduce::{Contacts, ReduceSettings, reduce};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,17 +25,9 @@ pub struct ReduceKeys {
     pub keys: Vec<KeySet>,
     /// The tolerance in millimeters, 0 to 10,000.
     pub tolerance: f32,
-    /// Millimeters in one unit of the model: 1000 where it is in meters.
-    #[serde(default = "meters", skip_serializing_if = "is_meters")]
-    pub unit: f32,
-}
-
-fn meters() -> f32 {
-    1000.0
-}
-
-fn is_meters(unit: &f32) -> bool {
-    *unit == meters()
+    /// Millimeters in one unit of the model: 1000 where it is in meters. By default guessed from the size of the figure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<f32>,
 }
 
 map_references!(ReduceKeys { take, keys, tolerance, unit });
@@ -68,7 +61,8 @@ impl EditKind for ReduceKeys {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        for (what, value, most) in [("the tolerance", self.tolerance, 1e4), ("the unit", self.unit, 1e9)] {
+        let unit = self.unit.unwrap_or_else(|| 1000.0 * ModelUnit::of(work.skeleton()).meters);
+        for (what, value, most) in [("the tolerance", self.tolerance, 1e4), ("the unit", unit, 1e9)] {
             if !(0.0..=most).contains(&value) {
                 return Err(EditError::Number { what, value });
             }
@@ -76,7 +70,7 @@ impl EditKind for ReduceKeys {
         let take = work.take(&self.take)?;
         let chosen = work.keys(take, &self.keys)?;
         let result = Arc::clone(&work.slot(take).result);
-        let (tolerance, millimeters_per_unit) = (self.tolerance, self.unit);
+        let (tolerance, millimeters_per_unit) = (self.tolerance, unit);
         let given = contacts::stored(work, take).contacts().to_vec();
         let contacts = Contacts { given, ..Contacts::default() };
         let settings =
@@ -107,6 +101,11 @@ impl EditKind for ReduceKeys {
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let tolerance = from.choice([0.0, 1.0, 5000.0]);
-        Self { take: from.take(), keys: from.keys(), tolerance, unit: from.choice([1000.0, 10.0]) }
+        Self {
+            take: from.take(),
+            keys: from.keys(),
+            tolerance,
+            unit: from.choice([None, Some(1000.0), Some(10.0)]),
+        }
     }
 }

@@ -41,6 +41,8 @@ pub struct OtherSkeleton {
     pub skeleton: Arc<Skeleton>,
     /// For each of its bones, the bone of the model that it is compared with. Where empty, none is, and all are drawn alike.
     pub first_of: Arc<[Option<BoneIndex>]>,
+    /// The bone of it that is emphasized.
+    pub marked: Option<BoneIndex>,
 }
 
 impl SecondSkeleton {
@@ -61,7 +63,9 @@ impl PartialEq for SecondSkeleton {
 
 impl PartialEq for OtherSkeleton {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.skeleton, &other.skeleton) && Arc::ptr_eq(&self.first_of, &other.first_of)
+        Arc::ptr_eq(&self.skeleton, &other.skeleton)
+            && Arc::ptr_eq(&self.first_of, &other.first_of)
+            && self.marked == other.marked
     }
 }
 
@@ -130,6 +134,13 @@ impl GraphicComponent for ComparedGraphic {
                 !frame.look.hidden.is_hidden(bone) && frame.model.shape().is_joint(bone)
             })
         };
+        // A bone goes from its joint to its children; the last one of a limb comes from its parent.
+        let marked = second.other.as_ref().and_then(|other| other.marked);
+        let is_last = !skeleton.bones.iter().any(|bone| marked.is_some() && bone.parent == marked);
+        let is_marked = |bone: usize, parent: Option<usize>| {
+            let end = if is_last { Some(bone) } else { parent };
+            marked.is_some() && end == marked.map(|marked| marked as usize)
+        };
         for (index, bone) in skeleton.bones.iter().enumerate() {
             let Some(at) = joint(index).filter(|_| is_drawn(index)) else { continue };
             let distance = apart(index).unwrap_or(0.0);
@@ -147,8 +158,12 @@ impl GraphicComponent for ComparedGraphic {
             // A bone at the scene's own root has no length that means anything.
             let from = parent.filter(|parent| skeleton.bones[*parent].parent.is_some() || !is_beside);
             if let Some(from) = from.and_then(joint) {
-                let strength = if is_beside { 0.8 } else { 0.25 + 0.7 * part };
-                shape.add_line(from, at, GizmoRole::Future, strength);
+                let (role, strength) = match () {
+                    () if is_marked(index, parent) => (GizmoRole::Active, 1.0),
+                    () if is_beside => (GizmoRole::Future, 0.8),
+                    () => (GizmoRole::Future, 0.25 + 0.7 * part),
+                };
+                shape.add_line(from, at, role, strength);
             }
         }
     }

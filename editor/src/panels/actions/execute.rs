@@ -63,6 +63,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Speed(speed) => playback::set_speed(workspace, speed),
         Request::Repeat(repeat) => playback::set_repeat(workspace, repeat),
         Request::FrameRate(rate) => workspace.frame_rate.choose(rate),
+        Request::LengthUnit(meters) => workspace.unit.choose(meters),
         Request::Scale(scale) => look::set_scale(workspace, scale),
         Request::Keys(keys) => workspace.settings.keys = keys,
         Request::Camera(camera) => workspace.camera.set_camera(camera),

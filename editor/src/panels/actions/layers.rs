@@ -55,13 +55,18 @@ pub(in crate::panels) fn merge_down(workspace: &mut Workspace) -> Option<Effect>
         workspace.layers.choose(below);
         workspace.layers.choose_next_new();
     }
-    Some(edit(Edit::MergeLayers(MergeLayers { take })))
+    Some(edit(Edit::MergeLayers(MergeLayers { take, rate: rate(workspace) })))
 }
 
 /// Makes all layers keys of the take.
 pub(in crate::panels) fn merge_all(workspace: &mut Workspace) -> Option<Effect> {
     let take = workspace.read().shown_take_ref()?;
-    Some(edit(Edit::MergeLayers(MergeLayers { take })))
+    Some(edit(Edit::MergeLayers(MergeLayers { take, rate: rate(workspace) })))
+}
+
+/// Returns the frames per second on which keys are added.
+fn rate(workspace: &Workspace) -> Option<f32> {
+    Some(workspace.frame_rate.get() as f32)
 }
 
 /// Mutes the active layer, or unmutes it.

@@ -24,6 +24,7 @@ pub(super) mod look;
 pub(super) mod playback;
 pub(super) mod pose;
 pub(super) mod pose_library;
+mod reopened;
 pub(super) mod scope;
 pub(super) mod sets;
 pub(super) mod show;

@@ -1,8 +1,10 @@
 //! The start of a frame, and a newer view of the document.
 
+use super::reopened::BeforeReload;
 use super::{drags, framing, keys, layers, playback, scope, tools, undo};
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
+use crate::panels::difference_text::ShownScale;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::root_bone::BoneShift;
@@ -27,7 +29,7 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     let keys = workspace.read().shown_keys();
     workspace.model.update_digest(keys, workspace.bones.active());
     let (view, rate) = (workspace.model.view(), workspace.frame_rate.get());
-    workspace.contacts.update(view, playback.take, rate);
+    workspace.contacts.update(view, playback.take, rate, workspace.unit.meters());
     workspace.compared_file.update(view.map(|view| &view.loaded.model.animation.skeleton));
     if let Some(view) = workspace.model.view() {
         workspace.posed.hold_still(workspace.keys.flags(), view);
@@ -46,11 +48,13 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     let view = workspace.model.receive(view, &mut workspace.dragging.echo);
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
+        let before = BeforeReload::of(workspace, &view);
         workspace.model.replace(view);
         workspace.selections.open(done);
         workspace.trail.clear();
         workspace.compared = CompareWith::Nothing;
-        return show_model(workspace);
+        show_model(workspace);
+        return before.into_iter().for_each(|before| before.restore(workspace));
     }
     let before = workspace.model.replace(view);
     follow_bones(workspace, before.as_ref(), answered);
@@ -62,10 +66,12 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
             let kept = old.history.done.min(new.history.done.saturating_sub(1));
             workspace.trail.forget_after(kept);
         }
-        let (rate, status) = (workspace.frame_rate.get(), &mut workspace.status);
-        match change_summary::describe_change(old, new, rate) {
+        let scale =
+            ShownScale { frame_rate: workspace.frame_rate.get(), millimeters: workspace.unit.millimeters() };
+        let status = &mut workspace.status;
+        match change_summary::describe_change(old, new, scale) {
             Some(summary) => workspace.remark.say(old, summary, status),
-            None if !workspace.dragging.is_open() => workspace.remark.update(new, rate, status),
+            None if !workspace.dragging.is_open() => workspace.remark.update(new, scale, status),
             None => {}
         }
     }
@@ -115,6 +121,7 @@ fn show_model(workspace: &mut Workspace) {
     workspace.sound.set(Default::default());
     if let Some(view) = workspace.model.view() {
         workspace.keys.open(view.file.key());
+        workspace.unit.guess(&view.loaded.model.animation.skeleton);
     }
     guess_frame_rate(workspace);
     recall_marks(workspace);
@@ -136,6 +143,7 @@ fn marks(workspace: &Workspace) -> BoneMarks<'_> {
         pins: workspace.bones.pins(),
         pole: workspace.tools.ik().pole,
         frame_rate: workspace.frame_rate.chosen(),
+        meters_per_unit: workspace.unit.chosen(),
         sets: &workspace.sets,
         reference: &workspace.reference,
         sound: &workspace.sound,
@@ -155,7 +163,9 @@ pub(in crate::panels) fn note_marks(workspace: &mut Workspace) {
 fn recall_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     let recalled = workspace.model.view().and_then(|view| remembered.recall(view));
-    if let Some(RecalledMarks { flags, pins, pole, frame_rate, sets, reference, sound }) = recalled {
+    if let Some(recalled) = recalled {
+        let RecalledMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } =
+            recalled;
         for (flag, bone) in flags {
             workspace.keys.set_flag(flag, bone, true);
         }
@@ -167,6 +177,7 @@ fn recall_marks(workspace: &mut Workspace) {
         if let Some(rate) = frame_rate {
             workspace.frame_rate.choose(rate);
         }
+        workspace.unit.choose(meters_per_unit);
         if let Some(view) = workspace.model.view() {
             remembered.recalled(view, marks(workspace));
         }

@@ -86,6 +86,18 @@ pub const MOUSE: &[(&str, &str)] = &[
     ),
     ("Alt + click a key", "Select the keys of all listed bones at that time"),
     ("Alt + drag a tangent", "Break the tangent: change one side alone"),
+    ("Click or drag on the ruler", "Move the playhead; double-click: fit the keys"),
+    ("Alt + drag the end of the bar over selected keys", "Scale keys about the playhead"),
+    ("Drag the values beside the curves", "Pan the values; wheel: zoom; double-click: fit"),
+    ("Drag a key of the motion path", "Move the bone at that key"),
+    ("Drag a number", "Change it; Shift for precision, Ctrl to snap"),
+    ("Double-click a slider", "Reset its number"),
+    ("Drag a pose of the library sideways", "Blend it in; double-click: apply it"),
+    ("Click a selection set", "Select its bones; Shift: add them, Ctrl: remove them"),
+    ("Click a bone in the list", "Select it; Shift: all up to it, Ctrl: toggle; double-click: frame it"),
+    ("Shift + click the eye or the arrow of a bone", "Hide or fold all bones below it as well"),
+    ("Double-click a take, layer, marker or event", "Edit its name"),
+    ("Right-click", "Menu for what is under the pointer"),
 ];
 
 /// Returns the row of `id`.

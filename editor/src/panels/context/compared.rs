@@ -39,12 +39,13 @@ impl<'a> PanelContext<'a> {
                 let times = Some([take.end(), take.start]);
                 Some(SecondSkeleton { times, offset, ..SecondSkeleton::of(take) })
             }
-            (Some(Overlay::Retarget), DialogPreview::Source { take, scale, offset }) => {
+            (Some(Overlay::Retarget), DialogPreview::Source { take, scale, offset, marked }) => {
                 let animation = &self.retarget.source()?.model.animation;
                 let take = Arc::clone(animation.takes.get(take)?);
                 let other = OtherSkeleton {
                     skeleton: Arc::clone(&animation.skeleton),
                     first_of: Arc::clone(self.retarget.unpaired()),
+                    marked,
                 };
                 Some(SecondSkeleton { other: Some(other), scale, offset, ..SecondSkeleton::of(take) })
             }
@@ -53,6 +54,7 @@ impl<'a> PanelContext<'a> {
                 let other = self.compared_skeleton().map(|skeleton| OtherSkeleton {
                     skeleton: Arc::clone(skeleton),
                     first_of: Arc::clone(self.compared_file.first_of()),
+                    marked: None,
                 });
                 Some(SecondSkeleton { other, ..SecondSkeleton::of(take) })
             }

@@ -1,11 +1,17 @@
-//! Feet that edits hold in the contacts of the take that is shown.
+//! Feet that edits hold in the contacts of the take that is shown, and the units of what is shown.
 
 use super::PanelContext;
+use crate::panels::difference_text::ShownScale;
 use dragonfly_anim::contact::limb_of;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::edit::BoneRef;
 
 impl PanelContext<'_> {
+    /// Returns the units in which times and distances are shown.
+    pub(in crate::panels) fn scale(&self) -> ShownScale {
+        ShownScale { frame_rate: self.frame_rate, millimeters: self.unit.millimeters() }
+    }
+
     /// Returns whether smoothing can hold feet: the take that is shown has contacts and no layers.
     pub fn can_hold_feet(&self) -> bool {
         !self.contacts.track().is_empty() && self.layers().is_empty()

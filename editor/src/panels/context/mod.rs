@@ -19,6 +19,7 @@ use super::export::AnsweredExport;
 use super::foot_contacts::FootContacts;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
+use super::length_unit::LengthUnit;
 use super::open_model::Loading;
 use super::pose_library::PoseLibrary;
 use super::posed::PoseCache;
@@ -83,6 +84,8 @@ pub struct PanelContext<'a> {
     pub now: Instant,
     /// Frame rate of the document, frames per second.
     pub frame_rate: u32,
+    /// The unit of length of the model.
+    pub unit: LengthUnit,
     /// Selection and drag of keys, flags, markers, the play range.
     pub keys: &'a KeyEditing,
     /// The contacts of the take that is shown.

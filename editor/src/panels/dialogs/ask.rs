@@ -8,6 +8,7 @@ use dragonfly_document::View;
 use egui::{
     Button, CornerRadius, Frame, Key, Margin, Response, RichText, Stroke, TextEdit, TextStyle, Ui, vec2,
 };
+use std::ops::Range;
 use std::path::PathBuf;
 
 /// A question that is being drawn.
@@ -103,6 +104,8 @@ impl Ask<'_> {
         let response = self.ui.add(field).accessible_name(name);
         if self.fresh {
             response.request_focus();
+            // As in the dialogs of desktops: typing replaces the name, not the folder or the ending.
+            widgets::select_characters(self.ui.ctx(), response.id, stem_of(&self.fields.path));
         }
         let entered = response.lost_focus() && self.ui.input(|input| input.key_pressed(Key::Enter));
         // The field has the focus, not the default button.
@@ -119,6 +122,13 @@ impl Ask<'_> {
         }
         None
     }
+}
+
+/// Returns the characters of the name of a file in a path, without its ending.
+fn stem_of(path: &str) -> Range<usize> {
+    let start = path.rfind(['/', '\\']).map_or(0, |at| at + 1);
+    let end = path[start..].rfind('.').filter(|&at| at > 0).map_or(path.len(), |at| start + at);
+    path[..start].chars().count()..path[..end].chars().count()
 }
 
 /// Returns a frame for details in a question, with a line around it: in the light theme card and frame are both white.
@@ -141,4 +151,24 @@ pub(super) fn button(ui: &mut Ui, title: &str, tone: Tone, able: bool) -> Respon
     let response = ui.add_enabled(able, button);
     widgets::focus_ring(ui, &response, response.rect.expand(2.0));
     response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_in_a_path_is_without_its_folder_and_its_ending() {
+        for (path, stem) in [
+            ("/models/Fox.glb", 8..11),
+            ("Fox", 0..3),
+            ("C:\\models.old\\Fox.v2.glb", 14..20),
+            ("/models/.hidden", 8..15),
+            ("/möbel/Stühle.glb", 7..13),
+            ("/models/", 8..8),
+            ("", 0..0),
+        ] {
+            assert_eq!(stem_of(path), stem, "{path}");
+        }
+    }
 }

@@ -43,7 +43,7 @@ impl Panel for DifferencesPanel {
             choose(ui, context, requests);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.add_space(2.0 * GRID);
-                let text = self.profile.summary(context.frame_rate);
+                let text = self.profile.summary(context);
                 let shown = context.compared_take().is_some();
                 if let Some(text) = text.filter(|_| shown) {
                     ui.add(
@@ -127,8 +127,11 @@ impl DifferencesPanel {
         let Some(bone) = self.profile.bone(row) else { return };
         let theme = Theme::of(ui);
         let name = context.bone_name(bone.first);
-        let numbers =
-            format!("{:.2} mm   {:.2}°", bone.distance.value * 1000.0, bone.angle.value.to_degrees());
+        let numbers = format!(
+            "{:.2} mm   {:.2}°",
+            bone.distance.value * context.unit.millimeters(),
+            bone.angle.value.to_degrees()
+        );
         let selected = context.selection.bones().contains(&bone.first);
         let (rect, response) = widgets::row(ui, &format!("{name}, {numbers}"), selected, false);
         let width = widgets::text_width(ui, &numbers, &TextStyle::Small);

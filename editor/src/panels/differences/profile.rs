@@ -68,21 +68,25 @@ impl ShownProfile {
     }
 
     /// Returns the difference at the time nearest to `time`, as text.
-    pub(super) fn text_at(&self, time: f32, frame_rate: u32) -> Option<String> {
+    pub(super) fn text_at(&self, time: f32, context: &PanelContext<'_>) -> Option<String> {
         let near =
             |(_, a): &(usize, &f32), (_, b): &(usize, &f32)| (*a - time).abs().total_cmp(&(*b - time).abs());
         let (at, nearest) = self.profile.times.iter().enumerate().min_by(near)?;
-        let frame = (f64::from(*nearest) * f64::from(frame_rate)).round();
+        let frame = (f64::from(*nearest) * f64::from(context.frame_rate)).round();
         let (distance, angle) = (self.profile.distances.get(at)?, self.profile.angles.get(at)?);
-        Some(format!("Frame {frame}: {:.2} mm, {:.2}°", distance * 1000.0, angle.to_degrees()))
+        Some(format!(
+            "Frame {frame}: {:.2} mm, {:.2}°",
+            distance * context.unit.millimeters(),
+            angle.to_degrees()
+        ))
     }
 
     /// Returns the largest distance and angle as text.
-    pub(super) fn summary(&self, frame_rate: u32) -> Option<String> {
+    pub(super) fn summary(&self, context: &PanelContext<'_>) -> Option<String> {
         let far = self.bone(0)?.distance;
         let angle = self.profile.angles.iter().copied().fold(0.0, f32::max).to_degrees();
-        let frame = (f64::from(far.time) * f64::from(frame_rate)).round();
-        Some(format!("up to {:.2} mm at frame {frame}, {angle:.2}°", far.value * 1000.0))
+        let frame = (f64::from(far.time) * f64::from(context.frame_rate)).round();
+        Some(format!("up to {:.2} mm at frame {frame}, {angle:.2}°", far.value * context.unit.millimeters()))
     }
 }
 

@@ -45,7 +45,7 @@ pub(super) fn show(
     if let Some(time) = pointed.filter(|_| response.is_pointer_button_down_on() || response.clicked()) {
         requests.push(Request::Seek(time));
     }
-    if let Some(text) = pointed.and_then(|time| profile.text_at(time, context.frame_rate)) {
+    if let Some(text) = pointed.and_then(|time| profile.text_at(time, context)) {
         response.on_hover_text(text);
     }
 }

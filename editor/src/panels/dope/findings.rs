@@ -112,7 +112,12 @@ fn fix(finding: &LintFinding, context: &PanelContext<'_>) -> Option<(String, Req
             edit(format!("Turn {name} the short way"), Edit::TurnKeys(turn))
         }
         LintRule::SpareKeys => {
-            let reduce = ReduceKeys { take: take.clone(), keys: keys(), tolerance: 1.0, unit: 1000.0 };
+            let reduce = ReduceKeys {
+                take: take.clone(),
+                keys: keys(),
+                tolerance: 1.0,
+                unit: context.unit.chosen().map(|meters| 1000.0 * meters),
+            };
             edit(format!("Reduce keys of {name} (1 mm)"), Edit::ReduceKeys(reduce))
         }
         LintRule::Floor | LintRule::Stretch | LintRule::Outside => None,

@@ -20,7 +20,7 @@ impl DragError {
         let (now, view) = (context.shared_take()?, context.view?);
         if self.shown.as_ref().is_none_or(|shown| !Arc::ptr_eq(shown, now)) {
             let skeleton = &view.loaded.model.animation.skeleton;
-            let difference = difference_text((before, now), skeleton, context.frame_rate)?;
+            let difference = difference_text((before, now), skeleton, context.scale())?;
             self.text = format!("{} → {} keys · {difference}", grouped(before.keys()), grouped(now.keys()));
             self.shown = Some(Arc::clone(now));
         }
