@@ -3,8 +3,11 @@
 mod actors;
 mod errors;
 mod feet;
+mod lines;
 mod live;
+mod missing;
 mod oracle;
+mod projects;
 mod pure;
 mod random_scripts;
 mod scenes;
