@@ -27,7 +27,7 @@ pub(super) fn scene(folder: &Folder) -> PathBuf {
 /// Returns an edit that replaces the first `old` in `text`.
 pub(super) fn replaced(text: &str, old: &str, new: &str) -> Edit {
     let splice = ScriptSplice { at: text.find(old).expect(old), old: old.to_owned(), new: new.to_owned() };
-    EditScript { text: None, create: false, splices: vec![splice], label: None }.into()
+    EditScript { text: None, create: false, splices: vec![splice], label: None, also: Vec::new() }.into()
 }
 
 pub(super) fn scene_of(view: &View) -> &Arc<SceneView> {
@@ -145,7 +145,13 @@ fn all_edits_of_a_gesture_are_one_step_and_each_is_relative_to_the_text_before_i
     for begin in ["1.1", "1.25", "2.5"] {
         let at = SCENE.find("begin=\"1\"").expect("a begin") + 7;
         let splices = vec![ScriptSplice { at, old: "1".to_owned(), new: begin.to_owned() }];
-        let edit = EditScript { text: None, create: false, splices, label: Some("Move clip".to_owned()) };
+        let edit = EditScript {
+            text: None,
+            create: false,
+            splices,
+            label: Some("Move clip".to_owned()),
+            also: Vec::new(),
+        };
         document.change(Change::Edit(edit.into(), Some(Gesture(7))));
     }
     document.change(Change::Release(Gesture(7)));

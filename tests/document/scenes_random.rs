@@ -31,7 +31,7 @@ fn random_edit(text: &str, random: &mut Random) -> (EditScript, String) {
     if below(2) == 0 && splices.windows(2).all(|pair| pair[0].at < pair[1].at) {
         splices.reverse();
     }
-    (EditScript { text: None, create: false, splices, label: None }, after)
+    (EditScript { text: None, create: false, splices, label: None, also: Vec::new() }, after)
 }
 
 #[test]

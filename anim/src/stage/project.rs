@@ -84,6 +84,20 @@ impl StageProject {
         self.element_with_id("model", model).and_then(|found| found.value("src")).unwrap_or(model)
     }
 
+    /// Returns the id of the model that scripts mean by `model`, an id or a file; `None` where the project does not have it.
+    pub fn model_id<'a>(&'a self, model: &'a str) -> Option<&'a str> {
+        if self.element_with_id("model", model).is_some() {
+            return Some(model);
+        }
+        self.elements_called("model").find(|found| found.value("src") == Some(model))?.value("id")
+    }
+
+    /// Returns the file of the edits of a model that are not saved into it; `None` where there is none.
+    pub fn edits_of(&self, model: &str) -> Option<&str> {
+        let id = self.model_id(model)?;
+        self.elements_called("edits").find(|edits| edits.value("of") == Some(id))?.value("src")
+    }
+
     /// Returns the files of its scripts, in the order of the text.
     pub fn scripts(&self) -> impl Iterator<Item = &str> {
         self.elements_called("script").filter_map(|script| script.value("src"))

@@ -3,10 +3,10 @@
 
 use super::clip_news::ClipNews;
 use super::export::{ExportOrder, ExportReport};
-use super::open_scene::SceneModelNews;
 use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
+use super::scene_models::SceneModelNews;
 use super::take_check::CheckedTake;
 use super::{LoadError, LoadedModel, Loader, OpenedModel, Progress, Source};
 use dragonfly_runtime::{Address, Job, JobContext};

@@ -73,8 +73,12 @@ pub fn open_model(
     Ok(OpenedModel { loaded, editable, texts: TextFiles::default() })
 }
 
-/// Loads the model called `name` in `folder`, for a scene. It is not edited.
-pub(super) fn load_inside(folder: &Folder, name: &str, cancel: &Cancel) -> Result<LoadedModel, LoadError> {
+/// Loads the model called `name` in `folder`, for a scene, and returns the hash of its file too. It is not edited.
+pub(super) fn load_inside(
+    folder: &Folder,
+    name: &str,
+    cancel: &Cancel,
+) -> Result<(LoadedModel, u64), LoadError> {
     let title = name.rsplit('/').next().unwrap_or(name).to_owned();
     let wrong =
         |error: FileAccessError| LoadError::Format { title: title.clone(), reason: error.to_string() };
@@ -82,7 +86,7 @@ pub(super) fn load_inside(folder: &Folder, name: &str, cancel: &Cancel) -> Resul
     let bytes = folder.read(name, FILE_BYTES).map_err(wrong)?;
     let door = Some(ReadOnce::of(&path).map_err(wrong)?);
     let read = Read { source: &Source::File(path), bytes, before: None, door };
-    read.load(&mut |_| {}, cancel)
+    Ok((read.load(&mut |_| {}, cancel)?, dragonfly_store::hash(&read.bytes)))
 }
 
 impl OpenedModel {

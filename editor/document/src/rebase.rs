@@ -136,17 +136,28 @@ impl Rebase {
         Ok(())
     }
 
-    /// Applies an edit of a text to the new version; the old one is `after` it.
+    /// Applies an edit of texts to the new version; the old one is `after` it. Parts that do not fit are left out.
     fn apply_to_text(&mut self, number: usize, edit: &EditScript, after: ModelAdapter) {
-        let new = self.new.adapter().texts();
-        let reason = match self.texts.mapped(edit, self.old.texts(), after.texts(), new) {
-            Ok(None) => None,
-            Ok(Some(mapped)) => self.new.ask(mapped.into(), None).err().map(Misfit::Refused),
-            Err(reason) => Some(reason),
-        };
-        if let Some(reason) = reason {
+        let (mut fitting, mut reasons) = (Vec::new(), Vec::new());
+        let mut old = self.old.texts().clone();
+        for part in edit.parts() {
+            let before = old.clone();
+            old.edit(&part);
+            // Parts of one edit are parts of different texts, so each is relative to the new texts as they are.
+            match self.texts.mapped(&part, &before, &old, self.new.adapter().texts()) {
+                Ok(mapped) => fitting.extend(mapped),
+                Err(reason) => reasons.push(reason),
+            }
+        }
+        let mut fitting = fitting.into_iter();
+        let mapped = fitting.next().map(|first| EditScript { also: fitting.collect(), ..first });
+        let applied = mapped.is_some();
+        if let Some(Err(reason)) = mapped.map(|mapped| self.new.ask(mapped.into(), None)) {
+            reasons.push(Misfit::Refused(reason));
+        }
+        if !reasons.is_empty() {
             let edit = described(&self.old, &edit.clone().into());
-            self.unfit.push(UnfitEdit { number, edit, applied_in_part: false, reasons: vec![reason] });
+            self.unfit.push(UnfitEdit { number, edit, applied_in_part: applied, reasons });
         }
         self.old = after;
     }

@@ -47,6 +47,8 @@ impl Document {
                     open.unwanted = true;
                 }
             }
+            DocumentMessage::EditModel(name) => self.edit_model(&name),
+            DocumentMessage::ShowScene => self.show_scene(now),
             DocumentMessage::ShowScript(name) => self.show_script(&name),
             DocumentMessage::LookAtFile => self.look_at_file(),
             DocumentMessage::Search => {

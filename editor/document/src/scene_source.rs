@@ -1,7 +1,9 @@
 //! Scripts of scenes from files, with the models that they name.
 
+use super::adapter::TextFiles;
 use super::load::load_inside;
 use super::scene_lines::SceneLines;
+use super::scene_models::with_edits;
 use super::source::LoadError;
 use super::text_source::{is_project, read_texts};
 use super::{Cancel, Folder};
@@ -21,6 +23,8 @@ pub struct LoadedScene {
     pub script: StageScript,
     /// Its plan, with the models.
     pub plan: StagePlan,
+    /// Edits of models that the project keeps and that do not fit them, a sentence for each model.
+    pub warnings: Vec<String>,
 }
 
 /// The reason why a scene cannot be shown.
@@ -83,7 +87,8 @@ pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoad
     let title = script.name.to_string();
     let wrong = |errors| SceneLoadError::Script { title: title.clone(), errors };
     let script = StageScript::read_of(Arc::clone(&script.text), project.as_ref()).map_err(wrong)?;
-    let mut assets = load_assets(&script, project.as_ref(), &folder, cancel)?.map_err(wrong)?;
+    let found = load_assets(&script, project.as_ref(), &read.texts, &folder, cancel)?.map_err(wrong)?;
+    let (mut assets, warnings) = found;
     let mut lines = SceneLines::default();
     lines.update(project.as_ref(), &read.texts, &mut assets);
     if !lines.errors.is_empty() {
@@ -91,17 +96,18 @@ pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoad
         return Err(SceneLoadError::Script { title, errors: lines.errors.to_vec() });
     }
     let plan = StagePlan::new(&script, &assets).map_err(wrong)?;
-    Ok(LoadedScene { title, script, plan })
+    Ok(LoadedScene { title, script, plan, warnings })
 }
 
 /// Loads each model that a script names, once.
 fn load_assets(
     script: &StageScript,
     project: Option<&StageProject>,
+    texts: &TextFiles,
     folder: &Folder,
     cancel: &Cancel,
-) -> Result<Result<StageAssets, Vec<ScriptError>>, SceneLoadError> {
-    let (mut assets, mut errors) = (StageAssets::default(), Vec::new());
+) -> Result<Result<(StageAssets, Vec<String>), Vec<ScriptError>>, SceneLoadError> {
+    let (mut assets, mut errors, mut warnings) = (StageAssets::default(), Vec::new(), Vec::new());
     for source in script.things().filter_map(|thing| thing.attribute("model")) {
         if cancel.is_cancelled() {
             return Err(SceneLoadError::Cancelled);
@@ -111,7 +117,15 @@ fn load_assets(
         }
         let file = project.map_or(&*source.value, |project| project.source_of(&source.value));
         match load_inside(folder, file, cancel) {
-            Ok(loaded) => assets.add_model(&*source.value, Arc::new(StageModel::new(loaded.model))),
+            Ok((loaded, _)) => {
+                let edits = project.and_then(|project| project.edits_of(&source.value));
+                let (model, reason) = match edits.and_then(|name| texts.called(name)) {
+                    Some(edits) => with_edits(&loaded.model, file, &edits.text),
+                    None => (loaded.model, None),
+                };
+                warnings.extend(reason);
+                assets.add_model(&*source.value, Arc::new(StageModel::new(model)));
+            }
             Err(LoadError::Cancelled) => return Err(SceneLoadError::Cancelled),
             Err(reason) => {
                 let message = match reason {
@@ -127,5 +141,5 @@ fn load_assets(
             }
         }
     }
-    Ok(if errors.is_empty() { Ok(assets) } else { Err(errors) })
+    Ok(if errors.is_empty() { Ok((assets, warnings)) } else { Err(errors) })
 }

@@ -22,6 +22,9 @@ pub struct SceneView {
     pub project: Option<Arc<StageProject>>,
     /// What is wrong with the newest text of the project, in its order.
     pub project_errors: Arc<[ScriptError]>,
+    /// What the user should know about the models of the project, in the order of its text: files that changed since their edits were
+    /// made, edits that do not fit.
+    pub project_notes: Arc<[ScriptError]>,
     /// The drawn lines of a project, as they were in the last text of them without errors; `None` without such a file.
     pub lines: Option<Arc<DrawnLines>>,
     /// What is wrong with the newest text of the lines, in its order.

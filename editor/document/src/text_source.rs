@@ -63,11 +63,12 @@ pub(super) fn read_texts(path: &Path) -> Result<ReadTexts, LoadError> {
 }
 
 impl ReadTexts {
-    /// Reads the scripts and the lines of a project.
+    /// Reads the scripts, the lines and the edits of models of a project.
     fn files_of(&mut self, project: &StageProject, files: &mut Vec<TextFile>) -> Result<(), LoadError> {
         let failed = |reason| LoadError::File { path: self.path.clone(), reason };
         let folder = Folder::of(&self.path).map_err(failed)?;
-        for name in project.scripts().chain(project.lines()) {
+        let edits = project.elements_called("edits").filter_map(|edits| edits.value("src"));
+        for name in project.scripts().chain(project.lines()).chain(edits) {
             if files.iter().any(|file| &*file.name == name) {
                 continue;
             }

@@ -159,9 +159,9 @@ impl CheckReport {
 
     /// Checks the script of a scene with the models that it names. What is wrong with it are findings with line and column.
     fn of_script(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
-        let (title, errors, notes) = match load_scene(file, &Cancel::default()) {
-            Ok(scene) => (scene.title, Vec::new(), scene.plan.schedule().notes().to_vec()),
-            Err(SceneLoadError::Script { title, errors }) => (title, errors, Vec::new()),
+        let (title, errors, notes, warnings) = match load_scene(file, &Cancel::default()) {
+            Ok(scene) => (scene.title, Vec::new(), scene.plan.schedule().notes().to_vec(), scene.warnings),
+            Err(SceneLoadError::Script { title, errors }) => (title, errors, Vec::new(), Vec::new()),
             Err(
                 error @ (SceneLoadError::Text(_)
                 | SceneLoadError::Unread(_)
@@ -172,6 +172,10 @@ impl CheckReport {
             }
         };
         let mut report = Self { file: title, ..Self::default() };
+        for text in warnings {
+            let row = FindingRow { severity: "", rule: "EDITS", place: String::new(), text };
+            report.add(deny, Severity::Warning, row);
+        }
         let errors = errors.into_iter().map(|error| (Severity::Error, error));
         for (severity, error) in errors.chain(notes.into_iter().map(|note| (Severity::Note, note))) {
             let (place, text) = (error.place.to_string(), error.text());

@@ -25,6 +25,9 @@ pub enum TextEditError {
     /// The document has no such text.
     #[error("the document has no text {0}")]
     NoText(String),
+    /// Edits of other texts have edits of other texts themselves.
+    #[error("edits that belong to the step of another one cannot have further ones")]
+    Nested,
     /// A new text has no name.
     #[error("a new text needs a name")]
     NoName,
@@ -113,12 +116,12 @@ impl TextFiles {
     pub(crate) fn edit(&mut self, edit: &EditScript) {
         if let (true, Ok(texts)) = (edit.create, edit.created_in(self)) {
             *self = texts;
-            return;
-        }
-        let Ok(index) = self.find(edit.text.as_ref()) else { return };
-        if let Some(Ok(splices)) = self.0.get(index).map(|file| edit.splices_in(file)) {
+        } else if let Ok(index) = self.find(edit.text.as_ref())
+            && let Some(Ok(splices)) = self.0.get(index).map(|file| edit.splices_in(file))
+        {
             self.splice(index, &splices);
         }
+        edit.also.iter().for_each(|other| self.edit(other));
     }
 
     /// Replaces parts of a text, and returns what leads back. The splices were checked.

@@ -36,6 +36,9 @@ pub struct EditScript {
     /// What the edit does, in a few words, such as `Move clip`; `Edit script` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
+    /// Edits of other texts that belong to the same step; they come after this one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<EditScript>,
 }
 
 /// One replacement of a part of a text.
@@ -83,7 +86,7 @@ impl EditScript {
             new: splice.text.clone(),
         };
         let splices = splices.list().iter().map(splice).collect();
-        Self { text: None, create: false, splices, label: Some(label.to_owned()) }
+        Self { text: None, create: false, splices, label: Some(label.to_owned()), also: Vec::new() }
     }
 
     /// Returns the edit that leads from `old` to `new` by replacing one part, the shortest; `None` where they are the same.
@@ -104,7 +107,12 @@ impl EditScript {
             new: new[start..new.len() - tail].to_owned(),
         };
         let label = label.map(str::to_owned);
-        Some(Self { text: None, create: false, splices: vec![splice], label })
+        Some(Self { text: None, create: false, splices: vec![splice], label, also: Vec::new() })
+    }
+
+    /// Returns the edit as edits of one text each, in their order.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Self> + '_ {
+        std::iter::once(Self { also: Vec::new(), ..self.clone() }).chain(self.also.iter().cloned())
     }
 
     /// Returns the texts of a project with the new one.
@@ -190,12 +198,15 @@ impl EditKind for EditScript {
         if self.create {
             let texts = self.created_in(texts)?;
             work.perform(Op::Texts(texts));
-            return Ok(());
+        } else {
+            let index = texts.find(self.text.as_ref())?;
+            let splices = self.splices_in(&texts.list()[index])?;
+            work.perform(Op::Text(index, splices));
         }
-        let index = texts.find(self.text.as_ref())?;
-        let splices = self.splices_in(&texts.list()[index])?;
-        work.perform(Op::Text(index, splices));
-        Ok(())
+        if self.also.iter().any(|other| !other.also.is_empty()) {
+            return Err(TextEditError::Nested.into());
+        }
+        self.also.iter().try_for_each(|other| other.plan(work))
     }
 
     fn detail(&self, adapter: &ModelAdapter) -> Option<String> {
@@ -219,6 +230,10 @@ impl EditKind for EditScript {
         let label = from.optional(|from| from.choice(["Move clip", "Fly"]).to_owned());
         let create = from.below(4) == 0;
         let text = if create { Some(TextRef::Name(format!("new-{}.xml", from.below(3)))) } else { text };
-        Self { text, create, splices, label }
+        let first = Self { text, create, splices, label, also: Vec::new() };
+        match from.below(4) {
+            0 => Self { also: vec![first.clone()], ..first },
+            _ => first,
+        }
     }
 }

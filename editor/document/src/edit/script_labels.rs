@@ -44,4 +44,5 @@ pub const SCRIPT_LABELS: &[&str] = &[
     "Draw path",
     "Draw line",
     "Erase line",
+    "Edit model",
 ];

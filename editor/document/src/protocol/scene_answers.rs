@@ -125,7 +125,9 @@ impl SceneAnswers {
                     .map_err(|error| error.to_string())
             });
             match loaded {
-                Ok(loaded) => self.assets.add_model(&*source.value, Arc::new(StageModel::new(loaded.model))),
+                Ok((loaded, _)) => {
+                    self.assets.add_model(&*source.value, Arc::new(StageModel::new(loaded.model)))
+                }
                 Err(reason) => {
                     self.missing.insert(source.value.to_string());
                     let (text, range) = (script.tree().text(), source.value_range.clone());
