@@ -1,5 +1,6 @@
 //! Tests of the document crate, one module for each guarantee.
 
+mod archives;
 mod beside;
 mod compared_file;
 mod contacts;

@@ -209,7 +209,7 @@ fn edits_of_several_texts_come_back_after_a_kill_also_after_a_save_that_left_the
 }
 
 #[test]
-fn a_project_with_errors_is_opened_to_be_corrected_and_a_missing_script_is_told() {
+fn a_project_with_errors_is_opened_to_be_corrected_and_a_missing_script_is_reported() {
     let folder = Folder::new("project-errors");
     let path = project(&folder);
     fs::remove_file(folder.join("end.xml")).expect("a file");

@@ -160,7 +160,7 @@ fn a_model_that_is_edited_in_a_scene_and_the_scene_come_back_after_a_kill() {
 }
 
 #[test]
-fn a_model_whose_file_changed_since_its_edits_and_edits_that_do_not_fit_are_told_with_their_places() {
+fn a_model_whose_file_changed_since_its_edits_and_edits_that_do_not_fit_are_reported_with_their_places() {
     let folder = Folder::new("scene-models-changed");
     let path = project(&folder);
     fs::create_dir(folder.join("foxes.edits")).expect("a folder");

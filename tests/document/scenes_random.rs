@@ -1,4 +1,4 @@
-//! Random edits of a text: each changes the bytes that it says, and undo of all leads back byte for byte.
+//! Random edits of a text: each changes exactly the bytes that it names, and undo of all leads back byte for byte.
 
 use super::scenes::SCENE;
 use dragonfly_anim::data::ModelData;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// Length in seconds of a take whose model is missing.
 pub const UNKNOWN_TAKE: f64 = 1.0;
 
-/// Speed in meters per second of a walk at the stride of a take whose model is missing: that of a person who is not in a hurry.
+/// Speed in meters per second of a walk at the stride of a take whose model is missing: a calm walk.
 pub const UNKNOWN_SPEED: f64 = 1.4;
 
 /// The models, lines and sounds that scripts may name, by the text with which scripts name them.
@@ -42,7 +42,7 @@ impl StageAssets {
         self.sounds.insert(source.into(), length);
     }
 
-    /// Makes scripts that name other models than these plannable: their things stand and move without a pose, their takes last
+    /// Allows scripts to name models that are not here: the things of these models are placed and moved without a pose, their takes last
     /// [`UNKNOWN_TAKE`], they walk with [`UNKNOWN_SPEED`], and their bones are where the things are. For scenes whose models are
     /// still being read, or are lost.
     pub fn allow_missing_models(&mut self) {

@@ -42,7 +42,7 @@ pub struct Editable {
     pub warnings: Vec<String>,
     /// Units, axes and frame rate that the user chose for the file.
     conventions: Conventions,
-    /// What is edited, as it is in the files.
+    /// The edited content, as it is in the files.
     content: EditedContent,
     /// State of the file when it was last read or saved.
     stamp: Option<FileStamp>,

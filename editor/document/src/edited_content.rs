@@ -1,11 +1,11 @@
-//! What a document edits and saves: the file of a model, of which only the edited bytes change, or texts.
+//! The content that a document edits and saves: the file of a model, of which only the edited bytes change, or texts.
 
 use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::text_changes::text_changes;
 use dragonfly_anim::format::{EditableFile, OutputFile, SavePlan};
 use std::sync::Arc;
 
-/// What is edited, as it is in the files.
+/// The edited content, as it is in the files.
 #[derive(Clone)]
 pub(super) enum EditedContent {
     /// A model, in the file that later saves start from.

@@ -1,4 +1,4 @@
-//! Models of a scene that are edited in it: the scene waits meanwhile, and plays the edits afterwards.
+//! Models of a scene that are edited in it: the scene waits until it is shown again, and then plays the edits.
 //!
 //! A model has its own history and journal while it is edited. When the scene is shown again, the edits that are not saved into the model
 //! become one step of the project, and are saved with it ([`super::project_edits`]).
@@ -8,49 +8,11 @@ use super::message::DocumentReply;
 use super::open::{Change, Open};
 use super::owner::Document;
 use super::project_edits::{EditedModel, kept_in};
+use super::waiting_scene::{SceneModelEdit, WaitingScene};
 use super::{OpenedModel, Source};
 use crate::text::sentence;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
-
-/// A model of the open scene that is to be edited.
-#[derive(Clone, Debug)]
-pub(super) struct SceneModelEdit {
-    name: String,
-    file: String,
-    /// The edits that the project keeps, one a line.
-    edits: Option<Arc<str>>,
-}
-
-/// A scene that waits while one of its models is edited.
-pub(super) struct WaitingScene {
-    open: Open,
-    model: SceneModelEdit,
-}
-
-impl WaitingScene {
-    /// Returns whether the scene has work that is not saved.
-    pub(super) fn has_unsaved_work(&self) -> bool {
-        !self.open.edited.is_saved()
-    }
-
-    /// Flushes its journal where that is due. Returns the time at which there is something to do again.
-    pub(super) fn keep(&mut self, now: Instant) -> Option<Instant> {
-        self.open.keep(now);
-        self.open.journal_writer.next_due()
-    }
-
-    /// Returns the path of its journal.
-    pub(super) fn journal(&self) -> Option<&Path> {
-        self.open.journal_writer.path()
-    }
-
-    /// Returns the document of the scene.
-    pub(super) fn into_open(self) -> Open {
-        self.open
-    }
-}
 
 impl Document {
     /// Starts to read a model of the open scene, to edit it.
@@ -79,7 +41,7 @@ impl Document {
         Ok((Source::File(path), SceneModelEdit { name: name.to_owned(), file, edits }))
     }
 
-    /// Shows a model of the scene, which waits meanwhile. The edits that the project keeps are steps of it.
+    /// Shows a model of the scene, which waits. The edits that the project keeps are steps of it.
     pub(super) fn enter_model(&mut self, opened: OpenedModel, model: SceneModelEdit) {
         let Some(scene) = self.open.take() else { return };
         (self.waiting, self.noticed) = (None, None);

@@ -346,7 +346,7 @@ impl Edited {
                 self.base.start_with(&edit.name);
             }
             if let Edit::EditScript(edit) = &oldest.edit {
-                self.base_texts.edit(edit);
+                edit.apply_to(&mut self.base_texts);
             }
             self.bytes -= oldest.bytes;
             self.done -= 1;

@@ -38,7 +38,7 @@ pub enum DocumentMessage {
     Quit,
     /// Discards the unsaved work: its journal goes to the trash folder when the document is closed.
     DoNotSave,
-    /// Opens a model of the open scene to edit it; named as the script names it. The scene waits meanwhile, with its history. The reply is
+    /// Opens a model of the open scene to edit it; named as the script names it. The scene waits, with its history. The reply is
     /// [`DocumentReply::Opened`], with the edits that the project keeps as steps.
     EditModel(String),
     /// Shows the scene again, after [`Self::EditModel`]: a project keeps the edits that are not saved into the model, as one step, and plays

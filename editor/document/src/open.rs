@@ -41,7 +41,7 @@ pub(super) struct Open {
     opened: Arc<LoadedModel>,
     /// The texts as they were read; none for a model.
     texts: TextFiles,
-    /// What a script shows; `None` for a model.
+    /// The scene of a script or project; `None` for a model.
     pub(super) scene: Option<OpenScene>,
     /// The model with the skeleton as it is now.
     pub(super) loaded: Arc<LoadedModel>,

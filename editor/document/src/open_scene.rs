@@ -16,7 +16,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What a project without a script shows.
+/// The scene of a project without a script.
 const EMPTY: &str = "<script version=\"1\"/>";
 
 /// The scene of an open script or project.

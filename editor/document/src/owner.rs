@@ -1,6 +1,5 @@
 //! The document thread: owns the open document, loads models in jobs, publishes the newest view, writes the journal.
 
-use super::editing_models::{SceneModelEdit, WaitingScene};
 use super::export::ExportQuestions;
 use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
@@ -15,6 +14,7 @@ use super::running_save::{Deferred, RunningSave};
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
 use super::scene_models::SceneModelNews;
+use super::waiting_scene::{SceneModelEdit, WaitingScene};
 use super::{Change, LoadError, Loader, Offer, OpenedModel, Progress, Source, View, open_model};
 use crate::text::sentence;
 use dragonfly_runtime::{Address, Job, Thread, ThreadHandle};

@@ -6,7 +6,7 @@ use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, set_attribute};
 use std::collections::HashSet;
 
-/// What the history of a project says when edits of a model come into it.
+/// Name of the step of a project by which it gets edits of a model.
 const LABEL: &str = "Edit model";
 
 /// A model whose edits a project gets.

@@ -142,7 +142,7 @@ impl Rebase {
         let mut old = self.old.texts().clone();
         for part in edit.parts() {
             let before = old.clone();
-            old.edit(&part);
+            part.apply_to(&mut old);
             // Parts of one edit are parts of different texts, so each is relative to the new texts as they are.
             match self.texts.mapped(&part, &before, &old, self.new.adapter().texts()) {
                 Ok(mapped) => fitting.extend(mapped),

@@ -13,7 +13,7 @@ pub(super) struct SceneLines {
     text: Option<Arc<str>>,
     /// The lines of the last text without errors.
     pub(super) lines: Option<Arc<DrawnLines>>,
-    /// What is wrong with the newest text, in its order.
+    /// The errors of the newest text, in its order.
     pub(super) errors: Arc<[ScriptError]>,
 }
 

@@ -22,7 +22,7 @@ const NAMED: usize = 3;
 /// Distinguishes a job from others for a model of the same name.
 type JobMark = Arc<()>;
 
-/// Where a model of a scene comes from.
+/// The origin of a model of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct SceneModelSource {
     /// The file, relative to the folder of the scene.
@@ -38,7 +38,7 @@ pub(super) struct ReadSceneModel {
     stage: Arc<StageModel>,
     /// Hash of its file.
     hash: u64,
-    /// What the user should know about its edits.
+    /// A sentence for the user about edits that do not fit it.
     unfit: Option<String>,
 }
 
@@ -62,7 +62,7 @@ pub(super) struct SceneModels {
     /// The folder of the scene; the reason why its files cannot be read where it fails.
     folder: Result<Folder, String>,
     wanted: BTreeMap<String, SceneModelSource>,
-    /// What was read, or could not be read.
+    /// The models that were read, or could not be read.
     tried: BTreeMap<String, SceneModelSource>,
     jobs: BTreeMap<String, ReadingModel>,
     models: Arc<BTreeMap<String, SceneModel>>,
@@ -99,7 +99,7 @@ impl SceneModels {
         self.hashes.get(name).copied()
     }
 
-    /// Returns what the user should know about the edits of a model.
+    /// Returns a sentence for the user about edits of a model that do not fit it.
     pub(super) fn unfit(&self, name: &str) -> Option<&str> {
         self.unfit.get(name).map(String::as_str)
     }
@@ -124,7 +124,7 @@ impl SceneModels {
         self.start_jobs(document);
     }
 
-    /// Starts jobs for models that are to be read, as many as may run at once.
+    /// Starts jobs for models that are to be read, at most [`MOST_JOBS`].
     fn start_jobs(&mut self, document: &Address<JobNews>) {
         let is_new = |(name, source): &(&String, &SceneModelSource)| {
             self.tried.get(*name) != Some(*source) && !self.jobs.contains_key(*name)

@@ -57,11 +57,6 @@ fn listed(title: &str, errors: &[ScriptError]) -> String {
     errors.iter().map(|error| error.in_file(title)).collect::<Vec<_>>().join("\n")
 }
 
-/// Returns whether a file is a script by its name.
-pub fn is_script(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
-}
-
 /// Reads a script, or the first script of a project, and the models that it names. Files are read only from its folder and below.
 ///
 /// # Errors

@@ -20,14 +20,14 @@ pub struct SceneView {
     pub texts: TextFiles,
     /// The project of its last text without errors; `None` for a script that is open alone.
     pub project: Option<Arc<StageProject>>,
-    /// What is wrong with the newest text of the project, in its order.
+    /// The errors of the newest text of the project, in its order.
     pub project_errors: Arc<[ScriptError]>,
-    /// What the user should know about the models of the project, in the order of its text: files that changed since their edits were
+    /// Notes for the user about the models of the project, in the order of its text: files that changed since their edits were
     /// made, edits that do not fit.
     pub project_notes: Arc<[ScriptError]>,
     /// The drawn lines of a project, as they were in the last text of them without errors; `None` without such a file.
     pub lines: Option<Arc<DrawnLines>>,
-    /// What is wrong with the newest text of the lines, in its order.
+    /// The errors of the newest text of the lines, in its order.
     pub line_errors: Arc<[ScriptError]>,
     /// The script of the last text without errors; `None` before the first one. While [`Self::errors`] has some, its ranges are those of an
     /// older text.
@@ -36,7 +36,7 @@ pub struct SceneView {
     pub plan: Option<Arc<StagePlan>>,
     /// What is wrong with [`Self::text`], in its order; empty if `script` and `plan` are those of this text.
     pub errors: Arc<[ScriptError]>,
-    /// What the user should know about the scene that plays, in the order of its text: models that are missing, ends before begins.
+    /// Notes for the user about the scene that plays, in the order of its text: models that are missing, ends before begins.
     pub notes: Arc<[ScriptError]>,
     /// The models, by the text with which the script names them.
     pub models: Arc<BTreeMap<String, SceneModel>>,

@@ -1,4 +1,4 @@
-//! What a save of texts changes, for the user and for programs.
+//! The changes that a save of texts makes, for the user and for programs.
 
 use super::adapter::TextFiles;
 use dragonfly_anim::format::ChangeReport;

@@ -9,16 +9,16 @@ use std::ops::Range;
 
 /// A part in which the texts differ: its bytes in the old text, and those in the new one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Difference {
+struct TextDifference {
     old: Range<usize>,
     new: Range<usize>,
 }
 
-/// Where an old and a new text differ.
+/// The parts in which an old and a new text differ.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct TextMerge {
     /// In the order of the texts; they neither overlap nor touch.
-    differences: Vec<Difference>,
+    differences: Vec<TextDifference>,
 }
 
 impl TextMerge {
@@ -26,7 +26,7 @@ impl TextMerge {
     pub(super) fn between(old: &str, new: &str) -> Self {
         let [old_lines, new_lines] = [old, new].map(|text| text.split_inclusive('\n').collect::<Vec<_>>());
         let [old_starts, new_starts] = [&old_lines, &new_lines].map(|lines| starts(lines));
-        let bytes = |lines: Lines| Difference {
+        let bytes = |lines: LinePair| TextDifference {
             old: old_starts[lines.old.start]..old_starts[lines.old.end],
             new: new_starts[lines.new.start]..new_starts[lines.new.end],
         };
@@ -87,7 +87,7 @@ impl TextMerge {
         let before = first.checked_sub(1).and_then(|index| self.differences.get(index)).cloned();
         let to_new = |at: usize| before.as_ref().map_or(at, |part| at - part.old.end + part.new.end);
         let merged = match self.differences.get(first..last).unwrap_or_default() {
-            [] => Difference {
+            [] => TextDifference {
                 old: splice.range.start..splice.range.end,
                 new: to_new(splice.range.start)..to_new(splice.range.end),
             },
@@ -95,14 +95,14 @@ impl TextMerge {
                 let [start, end] = [&touched[0], &touched[touched.len() - 1]];
                 let lead = start.old.start.saturating_sub(splice.range.start);
                 let tail = splice.range.end.saturating_sub(end.old.end);
-                Difference {
+                TextDifference {
                     old: start.old.start.min(splice.range.start)..end.old.end.max(splice.range.end),
                     new: start.new.start - lead..end.new.end + tail,
                 }
             }
         };
         let merged =
-            Difference { old: merged.old.start..merged.old.end.saturating_add_signed(shift), ..merged };
+            TextDifference { old: merged.old.start..merged.old.end.saturating_add_signed(shift), ..merged };
         self.differences.splice(first..last.max(first), [merged]);
         for part in &mut self.differences[first + 1..] {
             part.old = part.old.start.saturating_add_signed(shift)..part.old.end.saturating_add_signed(shift);
@@ -110,10 +110,10 @@ impl TextMerge {
     }
 }
 
-/// Returns whether a replacement of `range` has no certain place beside a difference.
-fn touches(part: &Difference, range: &Range<usize>) -> bool {
+/// Returns whether a replacement of `range` has no certain place in the new text because of a difference.
+fn touches(part: &TextDifference, range: &Range<usize>) -> bool {
     let apart = range.end <= part.old.start || range.start >= part.old.end;
-    // Where the new text inserted something, what is inserted at the same place could be before or behind it.
+    // If the new text has an insertion, another one at the same place could go before or after it.
     let is_same_place = part.old.is_empty() && *range == part.old;
     !apart || is_same_place
 }
@@ -124,14 +124,14 @@ fn shifted(splices: &TextSplices, at: usize) -> usize {
     before.fold(at, |at, splice| at + splice.text.len() - splice.range.len())
 }
 
-/// Lines of the old text, and those of the new one in their place.
+/// LinePair of the old text, and those of the new one in their place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Lines {
+struct LinePair {
     old: Range<usize>,
     new: Range<usize>,
 }
 
-/// Returns the byte at which each line begins, and that behind the last one.
+/// Returns the byte at which each line begins, and the end of the text.
 fn starts(lines: &[&str]) -> Vec<usize> {
     let mut starts = vec![0];
     let mut at = 0;
@@ -142,11 +142,11 @@ fn starts(lines: &[&str]) -> Vec<usize> {
     starts
 }
 
-/// Returns the lines that differ. Lines that occur once in both texts are anchors; between them, common starts and ends are cut off,
+/// Returns the lines that differ. LinePair that occur once in both texts are anchors; between them, common starts and ends are cut off,
 /// until no anchor is left.
-fn different_lines(old: &[&str], new: &[&str]) -> Vec<Lines> {
+fn different_lines(old: &[&str], new: &[&str]) -> Vec<LinePair> {
     let mut found = Vec::new();
-    let mut open = vec![Lines { old: 0..old.len(), new: 0..new.len() }];
+    let mut open = vec![LinePair { old: 0..old.len(), new: 0..new.len() }];
     while let Some(part) = open.pop() {
         let part = trimmed(old, new, part);
         if part.old.is_empty() && part.new.is_empty() {
@@ -160,14 +160,14 @@ fn different_lines(old: &[&str], new: &[&str]) -> Vec<Lines> {
         let (mut old_from, mut new_from) = (part.old.start, part.new.start);
         for (a, b) in anchors {
             let (a, b) = (part.old.start + a, part.new.start + b);
-            open.push(Lines { old: old_from..a, new: new_from..b });
+            open.push(LinePair { old: old_from..a, new: new_from..b });
             (old_from, new_from) = (a + 1, b + 1);
         }
-        open.push(Lines { old: old_from..part.old.end, new: new_from..part.new.end });
+        open.push(LinePair { old: old_from..part.old.end, new: new_from..part.new.end });
     }
     found.sort_by_key(|lines| (lines.old.start, lines.new.start));
     // Parts that touch are one.
-    let mut joined: Vec<Lines> = Vec::with_capacity(found.len());
+    let mut joined: Vec<LinePair> = Vec::with_capacity(found.len());
     for lines in found {
         match joined.last_mut() {
             Some(last) if last.old.end == lines.old.start && last.new.end == lines.new.start => {
@@ -180,14 +180,17 @@ fn different_lines(old: &[&str], new: &[&str]) -> Vec<Lines> {
 }
 
 /// Cuts off the lines that are the same at the start and at the end.
-fn trimmed(old: &[&str], new: &[&str], part: Lines) -> Lines {
+fn trimmed(old: &[&str], new: &[&str], part: LinePair) -> LinePair {
     let (a, b) = (&old[part.old.clone()], &new[part.new.clone()]);
     let head = a.iter().zip(b).take_while(|(a, b)| a == b).count();
     let tail = a[head..].iter().rev().zip(b[head..].iter().rev()).take_while(|(a, b)| a == b).count();
-    Lines { old: part.old.start + head..part.old.end - tail, new: part.new.start + head..part.new.end - tail }
+    LinePair {
+        old: part.old.start + head..part.old.end - tail,
+        new: part.new.start + head..part.new.end - tail,
+    }
 }
 
-/// Returns lines that occur once in each text, as many as are in the same order in both.
+/// Returns the longest list of lines that occur once in each text and are in the same order in both.
 fn anchors(old: &[&str], new: &[&str]) -> Vec<(usize, usize)> {
     let mut count: HashMap<&str, [usize; 4]> = HashMap::new();
     for (side, lines) in [old, new].into_iter().enumerate() {

@@ -2,7 +2,6 @@
 
 use super::adapter::{TextFile, TextFiles};
 use super::beside::BesideStamps;
-use super::scene_source::is_script;
 use super::source::{LoadError, file_name};
 use super::{FileAccessError, Folder, read_file};
 use dragonfly_anim::stage::project::StageProject;
@@ -24,6 +23,11 @@ pub(super) struct ReadTexts {
     pub(super) beside: BesideStamps,
     /// Files that could not be read, one sentence each.
     pub(super) warnings: Vec<String>,
+}
+
+/// Returns whether a file is a script by its name.
+pub fn is_script(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
 }
 
 /// Returns whether a file is a script of a scene or a project by its name.

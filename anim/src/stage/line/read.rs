@@ -17,7 +17,7 @@ pub struct DrawnLine {
     pub id: Option<Box<str>>,
     /// Control points of cubic Bézier curves, meters, 3 n + 1 of them.
     pub points: Vec<DVec3>,
-    /// What it was drawn on: `view`, `ground`, `surface` or `bone`.
+    /// The surface that it was drawn on: `view`, `ground`, `surface` or `bone`.
     pub on: Box<str>,
     /// The thing, or the thing and bone, that it moves with.
     pub of: Option<Box<str>>,

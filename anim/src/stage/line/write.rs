@@ -18,7 +18,7 @@ pub struct NewLine {
 }
 
 impl DrawnLines {
-    /// Adds a line behind the others. `None` for a number of points that no line has.
+    /// Adds a line after the others. `None` for a number of points that no line has.
     pub fn added(&self, new: &NewLine) -> Option<TextSplices> {
         let mut element = NewElement::new("line");
         if let Some(id) = &new.id {

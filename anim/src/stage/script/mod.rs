@@ -124,7 +124,7 @@ impl StageScript {
         }
         let root = &tree.elements[0];
         let of_project = |name: &str| project.and_then(|project| project.tree().elements()[0].value(name));
-        // What is written counts, then what the project has, then the default.
+        // A written value has priority, then that of the project, then the default.
         let value = |name: &str| match root.attribute(name) {
             Some(written) => Some(&*written.value),
             None => of_project(name).or_else(|| root.value(name)),

@@ -1,6 +1,6 @@
 //! The texts of a document: the script of a scene, or the files of a project.
 
-use crate::edit::{EditScript, TextRef};
+use crate::edit::TextRef;
 use dragonfly_anim::stage::script::MOST_BYTES;
 use dragonfly_anim::stage::splice::TextSplices;
 use std::sync::Arc;
@@ -28,6 +28,9 @@ pub enum TextEditError {
     /// Edits of other texts have edits of other texts themselves.
     #[error("edits that belong to the step of another one cannot have further ones")]
     Nested,
+    /// The edit is one of a model, and the document is a script or a project.
+    #[error("a script and a project have no takes; edit one of its models")]
+    NoModel,
     /// A new text has no name.
     #[error("a new text needs a name")]
     NoName,
@@ -39,14 +42,14 @@ pub enum TextEditError {
         /// The reason.
         reason: String,
     },
-    /// The text has something else at this byte than the edit says.
+    /// The text at this byte is not the one that the edit expects.
     #[error("byte {at} of {name}: the text there is not {old:?}")]
     OtherText {
         /// Name of the text.
         name: Arc<str>,
         /// The byte.
         at: usize,
-        /// What the edit expects, cut to a few words.
+        /// The expected text, cut to a few words.
         old: String,
     },
     /// Two replacements of one edit overlap.
@@ -112,20 +115,8 @@ impl TextFiles {
         found.filter(|&index| index < self.0.len()).ok_or_else(|| TextEditError::NoText(named()))
     }
 
-    /// Applies an edit that was applied before.
-    pub(crate) fn edit(&mut self, edit: &EditScript) {
-        if let (true, Ok(texts)) = (edit.create, edit.created_in(self)) {
-            *self = texts;
-        } else if let Ok(index) = self.find(edit.text.as_ref())
-            && let Some(Ok(splices)) = self.0.get(index).map(|file| edit.splices_in(file))
-        {
-            self.splice(index, &splices);
-        }
-        edit.also.iter().for_each(|other| self.edit(other));
-    }
-
     /// Replaces parts of a text, and returns what leads back. The splices were checked.
-    pub(super) fn splice(&mut self, index: usize, splices: &TextSplices) -> TextSplices {
+    pub(crate) fn splice(&mut self, index: usize, splices: &TextSplices) -> TextSplices {
         let Some(file) = self.0.get(index) else {
             unreachable!("an operation names text {index}, which is not there")
         };

@@ -71,7 +71,7 @@ const END: u32 = 0x0605_4b50;
 const STORED: u16 = 0;
 const DEFLATED: u16 = 8;
 
-/// Flag that says that names are UTF-8.
+/// Flag for names in UTF-8.
 const UTF8: u16 = 1 << 11;
 
 /// Returns the name if it leads to a file below a folder.

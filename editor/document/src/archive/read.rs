@@ -113,7 +113,7 @@ fn unpacked(bytes: &[u8], entry: &DirectoryEntry) -> Result<Vec<u8>, ArchiveErro
     let size = usize::try_from(entry.size).map_err(|_| ArchiveError::TooLarge)?;
     let contents = match entry.method {
         STORED => data.to_vec(),
-        // What unpacks to more than it says is refused before it is there.
+        // A file that unpacks to more than its stated size is refused before the memory for it is allocated.
         DEFLATED => decompress_to_vec_with_limit(data, size)
             .map_err(|_| ArchiveError::Checksum(entry.name.clone()))?,
         _ => return Err(unsupported("this kind of compression")),

@@ -4,6 +4,7 @@ use super::kind::EditKind;
 use super::map_references::MapReferences;
 use super::reference_map::ReferenceMap;
 use super::script_labels::SCRIPT_LABELS;
+use super::text_ref::TextRef;
 use super::{Arbitrary, EditedBones, Example, Misfit, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::Transaction;
@@ -14,14 +15,13 @@ use dragonfly_anim::stage::splice::{TextSplice, TextSplices};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use std::fmt;
 
 /// Number of characters of a text that messages show.
 const SHOWN: usize = 40;
 
 /// Replaces parts of a text of the document: of the script of a scene, or of a file of a project.
 ///
-/// All places are those of the text before the edit. It is refused where the text has something else there than the edit says.
+/// All places are those of the text before the edit. It is refused if the text differs from `old` at one of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EditScript {
@@ -33,7 +33,7 @@ pub struct EditScript {
     pub create: bool,
     /// The replacements, which must not overlap, in any order; at least one.
     pub splices: Vec<ScriptSplice>,
-    /// What the edit does, in a few words, such as `Move clip`; `Edit script` if absent.
+    /// The name of the edit in the history, in a few words, such as `Move clip`; `Edit script` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
     /// Edits of other texts that belong to the same step; they come after this one.
@@ -50,31 +50,9 @@ pub struct ScriptSplice {
     /// The part that is replaced, as it is now; empty if absent, for an insertion.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub old: String,
-    /// What stands there afterwards; empty if absent, for a deletion.
+    /// The part that replaces it; empty if absent, for a deletion.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub new: String,
-}
-
-/// A text of the document, by its index in the list of texts or by its name.
-///
-/// In JSON a number or a string.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum TextRef {
-    /// Index in the list of texts, from 0 for the main file.
-    Index(usize),
-    /// Its path relative to the folder of the main file, with `/` between its parts.
-    Name(String),
-}
-
-impl fmt::Display for TextRef {
-    /// Writes a name in quotes and a number without.
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Index(index) => write!(out, "{index}"),
-            Self::Name(name) => write!(out, "{name:?}"),
-        }
-    }
 }
 
 impl EditScript {
@@ -113,6 +91,18 @@ impl EditScript {
     /// Returns the edit as edits of one text each, in their order.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Self> + '_ {
         std::iter::once(Self { also: Vec::new(), ..self.clone() }).chain(self.also.iter().cloned())
+    }
+
+    /// Applies it to texts to which it was applied before.
+    pub(crate) fn apply_to(&self, texts: &mut TextFiles) {
+        if let (true, Ok(created)) = (self.create, self.created_in(texts)) {
+            *texts = created;
+        } else if let Ok(index) = texts.find(self.text.as_ref())
+            && let Some(Ok(splices)) = texts.list().get(index).map(|file| self.splices_in(file))
+        {
+            texts.splice(index, &splices);
+        }
+        self.also.iter().for_each(|other| other.apply_to(texts));
     }
 
     /// Returns the texts of a project with the new one.
@@ -216,7 +206,7 @@ impl EditKind for EditScript {
         let file = adapter.texts().find(self.text.as_ref()).ok().filter(|_| texts.len() > 1);
         let file = file.and_then(|index| texts.get(index)).map(|file| &*file.name);
         let parts: Vec<&str> = own.into_iter().chain(file).collect();
-        (!parts.is_empty()).then(|| crate::about::shortened(&parts.join("  ·  ")))
+        (!parts.is_empty()).then(|| parts.join("  ·  ").chars().take(SHOWN).collect())
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

@@ -1,6 +1,6 @@
-//! What edits of a script do, in a few words, as the history and the undo command name them.
+//! Names of edits of a script, in a few words, for the history and the undo command.
 
-/// The labels that [`super::EditScript::label`] may have. Any other one counts as `Edit script`, with its text behind it.
+/// The labels that [`super::EditScript::label`] may have. Any other one counts as `Edit script`, followed by its text.
 pub const SCRIPT_LABELS: &[&str] = &[
     "Edit script",
     "Type",

@@ -35,7 +35,7 @@ pub enum Query {
         #[serde(default)]
         text: Option<TextRef>,
     },
-    /// What is wrong with the script of a scene, and what is probably not meant: line, column, bytes, message, help.
+    /// The errors of the script of a scene, and notes about what is probably not meant: line, column, bytes, message, help.
     Errors,
     /// The length of a scene, and when each of its actions begins and ends, in seconds.
     Schedule,
