@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 pub(super) const PROJECT: &str = "<?xml version=\"1.0\"?>\n<project version=\"1\" name=\"Two foxes\" fps=\"30\">\n  <models>\n    \
-    <model id=\"fox\" src=\"models/Fox.glb\"/>\n  </models>\n  <cast>\n    <camera id=\"wide\" at=\"0 2 9\" look=\"ann\"/>\n  </cast>\n  \
+    <model id=\"fox\" src=\"models/Fox.glb\"/>\n  </models>\n  <cast>\n    <camera id=\"wide\" at=\"0 2 9\" look=\"0 1 0\"/>\n  </cast>\n  \
     <lines src=\"foxes.lines.xml\"/>\n  <script id=\"main\" src=\"main.xml\"/>\n  <script id=\"end\" src=\"end.xml\"/>\n</project>\n";
 
 pub(super) const MAIN: &str = "<script version=\"1\">\n  <cast>\n    <role id=\"ann\" model=\"fox\" scale=\"0.01\"/>\n    \

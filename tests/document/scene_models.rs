@@ -174,7 +174,7 @@ fn a_model_whose_file_changed_since_its_edits_and_edits_that_do_not_fit_are_repo
     let notes: Vec<String> =
         scene_of(&view).project_notes.iter().map(|note| note.in_file("foxes.meproj")).collect();
     assert_eq!(notes.len(), 2, "{notes:?}");
-    assert!(notes[0].starts_with("foxes.meproj:4:50: the file of \"fox\" changed"), "{notes:?}");
+    assert!(notes[0].starts_with("foxes.meproj:4:48: the file of \"fox\" changed"), "{notes:?}");
     assert!(notes[1].contains("line 2: there is no take \"Dance\""), "{notes:?}");
     assert_eq!(takes(&view, "fox")[0], "Look around", "what fits is applied");
 }

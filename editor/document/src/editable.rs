@@ -8,22 +8,17 @@ use super::import::ImportDoor;
 use super::source::{LoadError, Source, file_name};
 use super::text_source::{ReadTexts, is_scene, read_texts};
 use super::unused;
-use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
+use super::writing::{Overwrite, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::Bounds;
-use dragonfly_anim::data::{AnimationData, ModelData};
-use dragonfly_anim::format::gltf::save::buffer_of_save;
+use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{
     AssetFs, Conventions, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions,
     SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_anim::root_bone::BoneShift;
-use dragonfly_store::{
-    ExpectedFile, FileStamp, FileState, RealFiles, SaveOptions, Vfs, folder_of, remove_unfinished,
-    save as save_file,
-};
+use dragonfly_store::{FileStamp, FileState, RealFiles, Vfs, folder_of};
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -41,17 +36,17 @@ pub struct Editable {
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
     /// Units, axes and frame rate that the user chose for the file.
-    conventions: Conventions,
+    pub(super) conventions: Conventions,
     /// The edited content, as it is in the files.
-    content: EditedContent,
+    pub(super) content: EditedContent,
     /// State of the file when it was last read or saved.
-    stamp: Option<FileStamp>,
+    pub(super) stamp: Option<FileStamp>,
     /// State of its buffers in other files when they were last read or saved.
-    beside: BesideStamps,
+    pub(super) beside: BesideStamps,
     /// The model with the skeleton and the takes that are in the file now.
-    on_disk: Arc<ModelData>,
+    pub(super) on_disk: Arc<ModelData>,
     /// Index of each take among the animations of the file, once it was saved.
-    places: Option<HashMap<TakeId, usize>>,
+    pub(super) places: Option<HashMap<TakeId, usize>>,
 }
 
 /// Path and contents of a file to write.
@@ -324,111 +319,6 @@ impl Editable {
     pub(super) fn forget_file(&mut self) {
         self.stamp = None;
     }
-
-    /// Writes `files`, which [`Self::files`] returned, and makes later saves relative to them where they become the file of the
-    /// document.
-    ///
-    /// # Errors
-    ///
-    /// The reason. Existing files are unchanged then, unless the error names them.
-    pub(super) fn write(
-        &mut self,
-        adapter: &ModelAdapter,
-        mut files: Vec<WrittenFile>,
-        how: Writing<'_>,
-    ) -> Result<FilesSaved, SaveFailure> {
-        let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
-        if how.overwrite == Overwrite::AsRead
-            && let Some((path, _)) = self.changed_beside()
-        {
-            return Err(SaveFailure::Changed(path.to_path_buf()));
-        }
-        let mut beside = BesideStamps::default();
-        let mut saved = FilesSaved::default();
-        for (path, bytes) in &files {
-            make_folder(path)?;
-            let old = self.beside.of(path).filter(|_| how.overwrite == Overwrite::AsRead);
-            let is_new_text =
-                matches!(&self.content, EditedContent::Texts(_)) && how.overwrite == Overwrite::AsRead;
-            let expected = match old {
-                Some(stamp) => ExpectedFile::Stamp(stamp),
-                // A text that the project got since it was opened.
-                None if is_new_text => ExpectedFile::Nothing,
-                None => ExpectedFile::Anything,
-            };
-            // A text of a project has versions as the project has.
-            let versions = how.versions.filter(|_| matches!(self.content, EditedContent::Texts(_)));
-            let options = SaveOptions { expected, versions };
-            let done = save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
-            beside.add(done.path, done.stamp);
-            saved.files.push(path.clone());
-        }
-        if how.overwrite == Overwrite::AsRead && how.becomes && self.has_unchanged_main(&main, &bytes) {
-            self.beside.extend(beside);
-            saved.bytes = bytes.len();
-            saved.files.push(main);
-            self.content = EditedContent::Texts(adapter.texts().clone());
-            return Ok(saved);
-        }
-        let expected = match (how.overwrite, &self.stamp) {
-            (Overwrite::AsRead, Some(stamp)) => ExpectedFile::Stamp(stamp),
-            (Overwrite::Nothing, _) => ExpectedFile::Nothing,
-            _ => ExpectedFile::Anything,
-        };
-        let options = SaveOptions { expected, versions: how.versions };
-        let done = save_file(&RealFiles, &main, &bytes, &options).map_err(SaveFailure::of)?;
-        saved.files.push(main.clone());
-        saved.notices = done.notices;
-        saved.bytes = bytes.len();
-        let name = file_name(&main);
-        remove_unfinished(&RealFiles, folder_of(&main), &|other| buffer_of_save(other, &name).is_some());
-        if how.becomes {
-            if !self.is_own(&main) {
-                self.beside = BesideStamps::default();
-            }
-            self.beside.extend(beside);
-            self.stamp = Some(done.stamp);
-            self.title = file_name(&main);
-            self.path = Some(main.clone());
-            if let Err(reason) = self.begin_again(adapter, bytes) {
-                saved
-                    .notices
-                    .push(format!("the saved file cannot be edited further: {reason}; open it again"));
-            }
-            saved.notices.extend(unused::notice(&main, &self.content.neighbors()));
-        }
-        Ok(saved)
-    }
-
-    /// Returns whether a save writes other texts and leaves the main one, at this path, as it is.
-    pub(super) fn has_unchanged_main(&self, path: &Path, bytes: &[u8]) -> bool {
-        let EditedContent::Texts(texts) = &self.content else { return false };
-        let is_same = texts.main().is_some_and(|text| text.as_bytes() == bytes);
-        texts.list().len() > 1 && is_same && self.is_own(path)
-    }
-
-    /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.
-    fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
-        let format = match &self.content {
-            EditedContent::Model(file) => file.format(),
-            EditedContent::Texts(_) => {
-                self.content = EditedContent::Texts(adapter.texts().clone());
-                return Ok(());
-            }
-        };
-        let door = self.path.as_deref().and_then(|path| ReadOnce::of(path).ok());
-        let file = opened(format, &self.title, bytes, door.as_ref(), self.conventions);
-        self.content = EditedContent::Model(Arc::new(file.map_err(|error| error.to_string())?));
-        self.beside.extend(door.map(|door| door.stamps()).unwrap_or_default());
-        let skeleton = Arc::clone(adapter.skeleton());
-        let shift = BoneShift::between(&self.model.animation.skeleton, &skeleton);
-        let model = shift.and_then(|shift| shift.model(&self.model, &skeleton));
-        let model = model.ok_or("its bones are not those that were opened")?;
-        let animation = AnimationData { skeleton, takes: adapter.saved_takes() };
-        self.on_disk = Arc::new(ModelData { animation, ..model });
-        self.places = Some(places(adapter));
-        Ok(())
-    }
 }
 
 /// Returns the index of each take in a file that has them all in this order.
@@ -444,7 +334,7 @@ impl fmt::Debug for Editable {
 }
 
 /// Opens `bytes` for editing, with access to the files of its folder where there is one.
-fn opened(
+pub(super) fn opened(
     format: Format,
     name: &str,
     bytes: Vec<u8>,

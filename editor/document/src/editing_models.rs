@@ -8,6 +8,7 @@ use super::message::DocumentReply;
 use super::open::{Change, Open};
 use super::owner::Document;
 use super::project_edits::{EditedModel, kept_in};
+use super::scene_models::SceneModelNews;
 use super::waiting_scene::{SceneModelEdit, WaitingScene};
 use super::{OpenedModel, Source};
 use crate::text::sentence;
@@ -15,6 +16,24 @@ use std::sync::Arc;
 use std::time::Instant;
 
 impl Document {
+    /// Shows another script of the open project.
+    pub(super) fn show_script(&mut self, name: &str) {
+        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
+        let is_there = scene.is_some_and(|scene| scene.show(name));
+        match is_there {
+            true => self.changed(),
+            false => self.reply(DocumentReply::Refused(format!("The project has no script {name}"))),
+        }
+    }
+
+    /// Takes a model of the open scene that was read.
+    pub(super) fn scene_model_read(&mut self, news: SceneModelNews) {
+        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
+        if scene.is_some_and(|scene| scene.take(news)) {
+            self.changed();
+        }
+    }
+
     /// Starts to read a model of the open scene, to edit it.
     pub(super) fn edit_model(&mut self, name: &str) {
         match self.model_to_edit(name) {

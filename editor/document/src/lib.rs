@@ -29,6 +29,7 @@ mod conversion;
 pub mod demo;
 pub mod edit;
 mod editable;
+mod editable_write;
 mod edited_content;
 mod editing_models;
 mod export;

@@ -13,7 +13,6 @@ use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
-use super::scene_models::SceneModelNews;
 use super::waiting_scene::{SceneModelEdit, WaitingScene};
 use super::{Change, LoadError, Loader, Offer, OpenedModel, Progress, Source, View, open_model};
 use crate::text::sentence;
@@ -407,24 +406,6 @@ impl Document {
         }
         self.report_trouble();
         due.into_iter().chain(scene).min()
-    }
-
-    /// Shows another script of the open project.
-    pub(super) fn show_script(&mut self, name: &str) {
-        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
-        let is_there = scene.is_some_and(|scene| scene.show(name));
-        match is_there {
-            true => self.changed(),
-            false => self.reply(DocumentReply::Refused(format!("The project has no script {name}"))),
-        }
-    }
-
-    /// Takes a model of the open scene that was read.
-    pub(super) fn scene_model_read(&mut self, news: SceneModelNews) {
-        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
-        if scene.is_some_and(|scene| scene.take(news)) {
-            self.changed();
-        }
     }
 
     /// Publishes the newest state, if it changed or a sender waits for an answer.
