@@ -1,5 +1,6 @@
 //! Tests of the document crate, one module for each guarantee.
 
+mod archives;
 mod beside;
 mod compared_file;
 mod contacts;
@@ -27,6 +28,7 @@ mod merged_keys;
 mod offset_keys;
 mod old_journals;
 mod pose_library;
+mod projects;
 mod rebase;
 mod reference_source;
 mod reload;
@@ -34,6 +36,11 @@ mod root_bone;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod scene_models;
+mod scenes;
+mod scenes_kept;
+mod scenes_merged;
+mod scenes_random;
 mod shape_key_edits;
 mod shape_keys;
 mod sound;

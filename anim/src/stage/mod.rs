@@ -100,11 +100,13 @@
 
 mod assets;
 mod ease;
+pub mod line;
 mod live;
 mod model;
 mod moment;
 mod path;
 mod plan;
+pub mod project;
 mod scene;
 pub mod schedule;
 pub mod script;
@@ -112,7 +114,7 @@ pub mod splice;
 pub mod table;
 pub mod time;
 
-pub use assets::StageAssets;
+pub use assets::{StageAssets, UNKNOWN_SPEED, UNKNOWN_TAKE};
 pub use ease::StageEase;
 pub use live::LiveStage;
 pub use model::{FootContact, StageFoot, StageModel, StageTake};

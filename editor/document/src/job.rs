@@ -6,6 +6,7 @@ use super::export::{ExportOrder, ExportReport};
 use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
+use super::scene_models::SceneModelNews;
 use super::take_check::CheckedTake;
 use super::{LoadError, LoadedModel, Loader, OpenedModel, Progress, Source};
 use dragonfly_runtime::{Address, Job, JobContext};
@@ -33,6 +34,8 @@ pub(super) enum JobNews {
     Exported(Box<(ExportOrder, Result<ExportReport, String>)>),
     /// The defects of a take.
     Checked(Result<CheckedTake, String>),
+    /// A model of the open scene was read.
+    SceneModel(Box<SceneModelNews>),
     /// The folder of the pose library after an order.
     Poses(Result<PoseFolder, String>),
 }

@@ -38,6 +38,14 @@ pub enum DocumentMessage {
     Quit,
     /// Discards the unsaved work: its journal goes to the trash folder when the document is closed.
     DoNotSave,
+    /// Opens a model of the open scene to edit it; named as the script names it. The scene waits, with its history. The reply is
+    /// [`DocumentReply::Opened`], with the edits that the project keeps as steps.
+    EditModel(String),
+    /// Shows the scene again, after [`Self::EditModel`]: a project keeps the edits that are not saved into the model, as one step, and plays
+    /// them. The reply is [`DocumentReply::Opened`]; or [`DocumentReply::Refused`] where the edits would be lost.
+    ShowScene,
+    /// Shows another script of the open project, by the name of its file.
+    ShowScript(String),
     /// Checks whether another program changed the file.
     LookAtFile,
     /// Searches for unsaved work of earlier sessions, and replies also if there is none.

@@ -6,12 +6,14 @@ use super::handle::DocumentHandle;
 use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
+use super::open_scene::OpenScene;
 use super::pose_library::PoseFiles;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
 use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
+use super::waiting_scene::{SceneModelEdit, WaitingScene};
 use super::{Change, LoadError, Loader, Offer, OpenedModel, Progress, Source, View, open_model};
 use crate::text::sentence;
 use dragonfly_runtime::{Address, Job, Thread, ThreadHandle};
@@ -42,6 +44,8 @@ impl Default for Setup {
 /// The document, on its own thread.
 pub struct Document {
     pub(super) open: Option<Open>,
+    /// The scene that waits while one of its models is edited.
+    pub(super) scene: Option<WaitingScene>,
     generation: u64,
     /// Whether it changed since the last view.
     changed: bool,
@@ -98,6 +102,8 @@ pub(super) struct LoadingModel {
     pub(super) offer: Option<(Offer, Decision)>,
     /// Whether it is the open file, which gets the unsaved edits of the open document.
     pub(super) gets_edits: bool,
+    /// The model of the open scene that it is.
+    pub(super) of_scene: Option<SceneModelEdit>,
 }
 
 impl Document {
@@ -138,6 +144,7 @@ impl Document {
             let jobs = own.clone();
             let make = move || Self {
                 open: None,
+                scene: None,
                 generation: 0,
                 changed: false,
                 answered: 0,
@@ -194,7 +201,7 @@ impl Document {
     fn replace_lost(&mut self, new: Self) {
         let mut lost = std::mem::replace(self, new);
         // The lost document is not written any more: its journal has all applied edits.
-        drop(lost.open.take());
+        drop((lost.open.take(), lost.scene.take()));
         (self.generation, self.tickets) = (lost.generation, lost.tickets);
         self.answered = lost.answered;
         self.reply(DocumentReply::Lost);
@@ -221,6 +228,7 @@ impl Document {
 
     pub(super) fn has_unsaved_work(&self) -> bool {
         self.open.as_ref().is_some_and(|open| !open.edited.is_saved())
+            || self.scene.as_ref().is_some_and(WaitingScene::has_unsaved_work)
     }
 
     /// Starts to load a model in the background; `offer` is the unsaved work that it is opened for.
@@ -228,7 +236,8 @@ impl Document {
         let ticket = self.next_ticket();
         match start_loading(&self.own, ticket, source.clone(), self.load) {
             Ok(job) => {
-                self.job = Some(LoadingModel { _job: job, ticket, source, offer, gets_edits: false });
+                let (gets_edits, of_scene) = (false, None);
+                self.job = Some(LoadingModel { _job: job, ticket, source, offer, gets_edits, of_scene });
             }
             Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
         }
@@ -259,7 +268,18 @@ impl Document {
         if self.save.is_some() {
             return self.deferred.push_back(Deferred::Loaded(ticket, loaded));
         }
-        let Some(running) = self.job.take_if(|running| running.ticket == ticket) else { return };
+        let Some(mut running) = self.job.take_if(|running| running.ticket == ticket) else { return };
+        match (loaded, running.of_scene.take()) {
+            (Ok(opened), Some(model)) => {
+                self.enter_model(*opened, model);
+                self.offer_late();
+            }
+            (loaded, _) => self.finish_opening(loaded, running),
+        }
+    }
+
+    /// Opens a model in place of the open one, or reports why it could not be read.
+    fn finish_opening(&mut self, loaded: Result<Box<OpenedModel>, LoadError>, running: LoadingModel) {
         match loaded {
             Ok(opened) if running.gets_edits => self.rebase(*opened),
             Ok(opened) => {
@@ -288,7 +308,15 @@ impl Document {
     /// Closes the open document, before another one is opened or the program ends.
     fn close(&mut self) {
         (self.waiting, self.noticed) = (None, None);
-        let Some(mut open) = self.open.take() else { return };
+        if let Some(scene) = self.scene.take() {
+            self.close_document(scene.into_open());
+        }
+        if let Some(open) = self.open.take() {
+            self.close_document(open);
+        }
+    }
+
+    fn close_document(&mut self, mut open: Open) {
         if !open.edited.is_saved() && !open.unwanted && self.autosave.is_some() {
             let text = format!(
                 "The unsaved work of {} can be restored when the file is opened again",
@@ -352,6 +380,10 @@ impl Document {
             self.reply(DocumentReply::FileChanged(state));
         }
         self.noticed = state;
+        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
+        if scene.is_some_and(OpenScene::look_again) {
+            self.changed();
+        }
     }
 
     /// Marks the state as changed. It is published once all messages of this iteration are handled.
@@ -363,6 +395,7 @@ impl Document {
     /// Flushes and retries the journal where that is due, and publishes whether work is unrecorded. Returns the time at which there is
     /// something to do again.
     pub(super) fn keep(&mut self, now: Instant) -> Option<Instant> {
+        let scene = self.scene.as_mut().and_then(|scene| scene.keep(now));
         let open = self.open.as_mut()?;
         let before = open.journal_writer.has_gap();
         open.keep(now);
@@ -372,7 +405,7 @@ impl Document {
             self.publish();
         }
         self.report_trouble();
-        due
+        due.into_iter().chain(scene).min()
     }
 
     /// Publishes the newest state, if it changed or a sender waits for an answer.
@@ -380,6 +413,9 @@ impl Document {
         let (changed, answers) = (std::mem::take(&mut self.changed), std::mem::take(&mut self.answers));
         if !changed && !answers {
             return;
+        }
+        if let Some(open) = self.open.as_mut().filter(|_| changed) {
+            open.update_scene(&self.own);
         }
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
         let view = View { answered: self.answered, ..view };
@@ -405,10 +441,11 @@ impl Document {
 impl Drop for Document {
     fn drop(&mut self) {
         self.wait_for_save();
-        if let Some(open) = &mut self.open
-            && let Err(reason) = open.close(self.autosave.as_ref())
-        {
-            tracing::warn!("{reason}");
+        let scene = self.scene.take().map(WaitingScene::into_open);
+        for mut open in self.open.take().into_iter().chain(scene) {
+            if let Err(reason) = open.close(self.autosave.as_ref()) {
+                tracing::warn!("{reason}");
+            }
         }
     }
 }

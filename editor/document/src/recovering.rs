@@ -20,8 +20,11 @@ impl Document {
         scan.unreadable.into_iter().for_each(|text| self.reply(DocumentReply::Warning(text)));
         let waiting = self.waiting.as_ref().map(|waiting| &waiting.journal);
         let own = self.open.as_ref().and_then(|open| open.journal_writer.path());
-        let taken =
-            |offer: &Offer| Some(&offer.found.journal) == waiting || Some(&*offer.found.journal) == own;
+        let scene = self.scene.as_ref().and_then(|scene| scene.journal());
+        let taken = |offer: &Offer| {
+            let journal = &offer.found.journal;
+            Some(journal) == waiting || Some(&**journal) == own || Some(&**journal) == scene
+        };
         let offers: Vec<_> = scan.offers.into_iter().filter(|offer| !taken(offer)).collect();
         let searched = std::mem::take(&mut self.searched);
         if !offers.is_empty() {
@@ -180,8 +183,9 @@ impl Document {
         let Some(open) = &mut self.open else { return };
         let Resumed { journal, entries, cut } = resumed;
         let model = &open.opened().model;
-        let replayed = replay(model, &entries);
-        let fits = replayed.is_of(model) && found.file == dragonfly_store::DocumentFileState::Same;
+        let replayed = replay(model, open.texts_as_read(), &entries);
+        let fits = replayed.is_of(model, open.texts_as_read())
+            && found.file == dragonfly_store::DocumentFileState::Same;
         if !wanted && (replayed.stopped.is_some() || !fits || !replayed.edited.is_saved()) {
             let text = format!(
                 "The history of {} belongs to other contents of the file; a new history was started",

@@ -47,6 +47,7 @@ fn waits(message: &DocumentMessage) -> Waits {
     match message {
         DocumentMessage::CancelLoading
         | DocumentMessage::Plan(_)
+        | DocumentMessage::ShowScript(_)
         | DocumentMessage::Search
         | DocumentMessage::ReadSource(_)
         | DocumentMessage::ReadCompared(_)
@@ -58,6 +59,8 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::Poses(_) => Waits::No,
         DocumentMessage::Save(_) | DocumentMessage::LookAtFile => Waits::Alone,
         DocumentMessage::Open { .. }
+        | DocumentMessage::EditModel(_)
+        | DocumentMessage::ShowScene
         | DocumentMessage::Reload
         | DocumentMessage::Revert
         | DocumentMessage::Quit

@@ -7,7 +7,7 @@ use super::run_command::RunCommand;
 use super::table::count;
 use super::take_lint::{TakeDefect, TakeThresholds, defects};
 use dragonfly_anim::check::{RULES, Severity, check};
-use dragonfly_document::{Cancel, SceneLoadError, is_script, load_scene};
+use dragonfly_document::{Cancel, SceneLoadError, is_scene, load_scene};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -126,7 +126,7 @@ struct FindingRow {
 
 impl CheckReport {
     fn of(file: &std::path::Path, deny: Deny, thresholds: Option<&TakeThresholds>) -> Result<Self, Failure> {
-        if is_script(file) {
+        if is_scene(file) {
             return Self::of_script(file, deny);
         }
         let loaded = load_checked(&source(file))?;
@@ -164,14 +164,23 @@ impl CheckReport {
 
     /// Checks the script of a scene with the models that it names. What is wrong with it are findings with line and column.
     fn of_script(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
-        let (title, errors, notes) = match load_scene(file, &Cancel::default()) {
-            Ok(scene) => (scene.title, Vec::new(), scene.plan.schedule().notes().to_vec()),
-            Err(SceneLoadError::Script { title, errors }) => (title, errors, Vec::new()),
-            Err(error @ (SceneLoadError::File { .. } | SceneLoadError::Cancelled)) => {
+        let (title, errors, notes, warnings) = match load_scene(file, &Cancel::default()) {
+            Ok(scene) => (scene.title, Vec::new(), scene.plan.schedule().notes().to_vec(), scene.warnings),
+            Err(SceneLoadError::Script { title, errors }) => (title, errors, Vec::new(), Vec::new()),
+            Err(
+                error @ (SceneLoadError::Text(_)
+                | SceneLoadError::Unread(_)
+                | SceneLoadError::NoScript
+                | SceneLoadError::Cancelled),
+            ) => {
                 return Err(error.into());
             }
         };
         let mut report = Self { file: title, ..Self::default() };
+        for text in warnings {
+            let row = FindingRow { severity: "", rule: "EDITS", place: String::new(), text };
+            report.add(deny, Severity::Warning, row);
+        }
         let errors = errors.into_iter().map(|error| (Severity::Error, error));
         for (severity, error) in errors.chain(notes.into_iter().map(|note| (Severity::Note, note))) {
             let (place, text) = (error.place.to_string(), error.text());

@@ -4,7 +4,7 @@
 //! without the check: earlier versions of the program allowed any name.
 
 use super::super::edit::Edit;
-use super::{EditError, ModelAdapter, TakeId, TakeVersions};
+use super::{EditError, ModelAdapter, TakeId, TakeVersions, TextEditError};
 use std::sync::Arc;
 
 /// Checks that a take can have the name `name`; `own` is the take to rename.
@@ -28,6 +28,10 @@ impl ModelAdapter {
     ///
     /// The reason why it is not allowed.
     pub fn allows(&self, edit: &Edit) -> Result<(), EditError> {
+        // A scene has models of its own; the document itself has none.
+        if !self.texts().is_empty() && !matches!(edit, Edit::EditScript(_)) {
+            return Err(TextEditError::NoModel.into());
+        }
         edit.allowed(self)
     }
 }

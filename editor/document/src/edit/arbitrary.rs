@@ -2,6 +2,9 @@
 
 use super::{BonePose, BoneRef, EDITS, Edit, KeySet, LayerRef, Property, TakeRef};
 
+/// Name of the kind of edit that changes texts.
+const TEXT_EDIT: &str = "script";
+
 /// A source of random edits for a model with a number of takes and some bones.
 pub struct Arbitrary<'a> {
     bits: &'a mut dyn FnMut() -> u64,
@@ -28,9 +31,11 @@ impl<'a> Arbitrary<'a> {
         Self { extreme: true, ..Self::new(bits, takes, bones) }
     }
 
-    /// Returns any edit of any kind, whether it can be applied or not.
+    /// Returns any edit of any kind of a model, whether it can be applied or not.
     pub fn edit(&mut self) -> Edit {
-        let kind = EDITS[self.below(EDITS.len())];
+        // A model has no text, so that edits of texts are always refused.
+        let mut kinds = EDITS.iter().filter(|kind| kind.name != TEXT_EDIT);
+        let kind = kinds.nth(self.below(EDITS.len() - 1)).unwrap_or(&EDITS[0]);
         (kind.arbitrary)(self)
     }
 

@@ -1,0 +1,228 @@
+//! The scene of an open script or project: what plays, and the models that it names.
+
+use super::Folder;
+use super::adapter::{TextFile, TextFiles};
+use super::job::JobNews;
+use super::scene_lines::SceneLines;
+use super::scene_models::{SceneModelNews, SceneModelSource, SceneModels};
+use super::scene_view::{SceneModel, SceneView};
+use super::text_source::is_project;
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::{ScriptError, ScriptTree, StageScript};
+use dragonfly_anim::stage::{LiveStage, StageAssets};
+use dragonfly_runtime::Address;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The scene of a project without a script.
+const EMPTY: &str = "<script version=\"1\"/>";
+
+/// The scene of an open script or project.
+pub(super) struct OpenScene {
+    live: LiveStage,
+    assets: StageAssets,
+    models: SceneModels,
+    /// Whether it is a project, and not a script alone.
+    is_project: bool,
+    /// The last good project, and what is wrong with its newest text.
+    project: Option<Arc<StageProject>>,
+    project_errors: Vec<ScriptError>,
+    lines: SceneLines,
+    /// The chosen script of a project.
+    chosen: Option<String>,
+    /// The texts that were planned last; `None` where models changed since then.
+    planned: Option<TextFiles>,
+    view: Arc<SceneView>,
+}
+
+impl OpenScene {
+    /// Returns the scene of the script or project at `path`, without a text so far.
+    pub(super) fn of(path: &Path) -> Self {
+        let mut assets = StageAssets::default();
+        assets.allow_missing_models();
+        Self {
+            live: LiveStage::default(),
+            assets,
+            models: SceneModels::new(Folder::of(path).map_err(|error| error.to_string())),
+            is_project: is_project(path),
+            project: None,
+            project_errors: Vec::new(),
+            lines: SceneLines::default(),
+            chosen: None,
+            planned: None,
+            view: Arc::default(),
+        }
+    }
+
+    /// Returns what is published.
+    pub(super) fn view(&self) -> Arc<SceneView> {
+        Arc::clone(&self.view)
+    }
+
+    /// Returns the models.
+    pub(super) fn models(&self) -> &SceneModels {
+        &self.models
+    }
+
+    /// Returns the last good project; `None` for a script alone.
+    pub(super) fn project(&self) -> Option<&Arc<StageProject>> {
+        self.project.as_ref()
+    }
+
+    /// Plans the script where a text or a model changed since the last time, and starts to read the models that it names.
+    pub(super) fn update(&mut self, texts: &TextFiles, document: &Address<JobNews>) {
+        if self.planned.as_ref() == Some(texts) {
+            return;
+        }
+        self.planned = Some(texts.clone());
+        let Some(TextFile { name, text }) = self.script_of(texts) else { return };
+        self.lines.update(self.project.as_deref(), texts, &mut self.assets);
+        self.live.update_of(Arc::clone(&text), self.project.as_deref(), &self.assets);
+        let wanted = self.wanted(texts);
+        self.models.want(wanted, document);
+        self.view = Arc::new(SceneView {
+            text,
+            name,
+            texts: texts.clone(),
+            project: self.project.clone(),
+            project_errors: self.project_errors.as_slice().into(),
+            project_notes: self.project_notes().into(),
+            lines: self.lines.lines.clone(),
+            line_errors: Arc::clone(&self.lines.errors),
+            script: self.live.script().cloned(),
+            plan: self.live.plan().cloned(),
+            errors: self.live.errors().into(),
+            notes: self.notes().into(),
+            models: Arc::clone(self.models.shown()),
+        });
+    }
+
+    /// Shows another script of the project. Returns whether it has one of this name.
+    pub(super) fn show(&mut self, name: &str) -> bool {
+        let is_there = self.project.as_ref().is_some_and(|project| project.scripts().any(|own| own == name));
+        if is_there {
+            (self.chosen, self.planned, self.live) = (Some(name.to_owned()), None, LiveStage::default());
+        }
+        is_there
+    }
+
+    /// Takes a model that was read. Returns whether the scene changed.
+    pub(super) fn take(&mut self, news: SceneModelNews) -> bool {
+        let changed = self.models.take(news, &mut self.assets);
+        if changed {
+            self.planned = None;
+        }
+        changed
+    }
+
+    /// Reads a model again: its file changed.
+    pub(super) fn read_again(&mut self, name: &str) {
+        self.models.forget(name);
+        self.planned = None;
+    }
+
+    /// Tries again to read the models that are missing: they may be there now. Returns whether there are any.
+    pub(super) fn look_again(&mut self) -> bool {
+        let any = self.models.look_again();
+        if any {
+            self.planned = None;
+        }
+        any
+    }
+
+    /// Reads the project, if it is one, and returns the script that is shown: the chosen one, or else the first.
+    fn script_of(&mut self, texts: &TextFiles) -> Option<TextFile> {
+        let main = texts.list().first()?;
+        if !self.is_project {
+            return Some(main.clone());
+        }
+        let is_same = self.project.as_ref().is_some_and(|project| *project.tree().text() == main.text);
+        if !is_same {
+            match StageProject::read(Arc::clone(&main.text)) {
+                Ok(project) => (self.project, self.project_errors) = (Some(Arc::new(project)), Vec::new()),
+                // The last good project stays.
+                Err(errors) => self.project_errors = errors,
+            }
+        } else {
+            self.project_errors.clear();
+        }
+        let named = |name: &str| texts.called(name).cloned();
+        let chosen = self.chosen.as_deref().and_then(named);
+        let first = || self.project.iter().flat_map(|project| project.scripts()).find_map(named);
+        // A project without a script has an empty scene.
+        chosen.or_else(first).or_else(|| {
+            let (name, text) = ("".into(), EMPTY.into());
+            Some(TextFile { name, text })
+        })
+    }
+
+    /// Returns the models that the script names, each with its source.
+    fn wanted(&self, texts: &TextFiles) -> BTreeMap<String, SceneModelSource> {
+        let Some(script) = self.live.script() else { return BTreeMap::new() };
+        let project = self.project.as_deref();
+        let source = |name: &str| {
+            let file = project.map_or(name, |project| project.source_of(name)).to_owned();
+            let edits =
+                project.and_then(|project| project.edits_of(name)).and_then(|name| texts.called(name));
+            SceneModelSource { file, edits: edits.map(|file| Arc::clone(&file.text)) }
+        };
+        names(script).map(|name| (name.to_owned(), source(name))).collect()
+    }
+
+    /// Returns what the user should know about the scene that plays: models that are missing, and what is probably not meant.
+    fn notes(&self) -> Vec<ScriptError> {
+        let Some(script) = self.live.script() else { return Vec::new() };
+        let missing = script.things().filter_map(|thing| {
+            let attribute = thing.attribute("model")?;
+            let range = attribute.value_range.clone();
+            match self.models.shown().get(&*attribute.value)? {
+                SceneModel::Missing(reason) => {
+                    let help =
+                        "what needs it is shown as a placeholder; models are files below the folder of the script";
+                    Some(note(script.tree(), range, reason.clone(), help))
+                }
+                SceneModel::Loading | SceneModel::Loaded(_) => None,
+            }
+        });
+        let plan = self.live.plan().into_iter().flat_map(|plan| plan.schedule().notes()).cloned();
+        let mut notes: Vec<ScriptError> = missing.chain(plan).collect();
+        notes.sort_by_key(|note| note.range.start);
+        notes
+    }
+
+    /// Returns what the user should know about the models of the project: files that changed, edits that do not fit.
+    fn project_notes(&self) -> Vec<ScriptError> {
+        let Some(project) = &self.project else { return Vec::new() };
+        let mut notes = Vec::new();
+        for model in project.elements_called("model") {
+            let Some(id) = model.value("id") else { continue };
+            let now = self.models.hash(id).map(|hash| format!("{hash:016x}"));
+            if let (Some(old), Some(now)) = (model.value("hash"), now)
+                && old != now
+            {
+                let message =
+                    format!("the file of \"{id}\" changed since its edits were made: its hash is {now}");
+                let help = "look at its takes; its edits are applied to it as far as they fit";
+                notes.push(note(project.tree(), model.value_range("hash"), message, help));
+            }
+            if let Some(unfit) = self.models.unfit(id) {
+                let element = project.elements_called("edits").find(|edits| edits.value("of") == Some(id));
+                let range = element.map_or_else(|| model.name.clone(), |edits| edits.value_range("src"));
+                notes.push(note(project.tree(), range, unfit.to_owned(), ""));
+            }
+        }
+        notes.sort_by_key(|note| note.range.start);
+        notes
+    }
+}
+
+fn note(tree: &ScriptTree, range: Range<usize>, message: String, help: &str) -> ScriptError {
+    ScriptError { place: tree.place(range.start), range, message, help: help.to_owned() }
+}
+
+/// Returns the models that a script names.
+fn names(script: &StageScript) -> impl Iterator<Item = &str> {
+    script.things().filter_map(|thing| thing.value("model"))
+}
