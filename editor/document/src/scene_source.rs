@@ -1,12 +1,17 @@
 //! Scripts of scenes from files, with the models that they name.
 
+use super::images::ImageSurvey;
 use super::import::{self, ImportDoor};
+use super::scene_view::{SceneModel, SceneView};
 use super::source::{LoadError, file_name};
-use super::{Cancel, FileAccessError, Folder, read_file};
-use dragonfly_anim::format::Conventions;
-use dragonfly_anim::limits::FILE_BYTES;
+use super::{Cancel, FileAccessError, Folder, LoadedModel, read_file};
+use dragonfly_anim::bounds::bounds_of_pose;
+use dragonfly_anim::data::ModelData;
+use dragonfly_anim::format::{Conventions, Conversion};
+use dragonfly_anim::limits::{FILE_BYTES, MEMORY_MAX};
 use dragonfly_anim::stage::script::{MOST_BYTES, ScriptAttribute, ScriptError, StageScript};
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
@@ -20,6 +25,43 @@ pub struct LoadedScene {
     pub script: StageScript,
     /// Its plan, with the models.
     pub plan: StagePlan,
+}
+
+impl LoadedScene {
+    /// Returns the scene as it is drawn, with the images of its models. Stops early, without the rest of the images, when `cancel` is raised.
+    pub fn view(&self, cancel: &Cancel) -> SceneView {
+        let mut models = BTreeMap::new();
+        for (element, thing) in self.script.things().zip(self.plan.things()) {
+            if let (Some(source), Some(model)) = (element.value("model"), &thing.model) {
+                models
+                    .entry(source.to_owned())
+                    .or_insert_with(|| SceneModel::Loaded(Arc::new(drawn(source, model.data(), cancel))));
+            }
+        }
+        SceneView {
+            text: Arc::clone(self.script.tree().text()),
+            script: Some(Arc::new(self.script.clone())),
+            plan: Some(Arc::new(self.plan.clone())),
+            errors: Arc::default(),
+            models: Arc::new(models),
+        }
+    }
+}
+
+/// Returns a model of a scene as it is drawn, at rest.
+fn drawn(source: &str, model: &Arc<ModelData>, cancel: &Cancel) -> LoadedModel {
+    let (images, warnings) = ImageSurvey::new(&model.images, MEMORY_MAX, cancel);
+    LoadedModel {
+        title: file_name(Path::new(source)),
+        path: None,
+        format: None,
+        conversion: Conversion::default(),
+        bounds: bounds_of_pose(model, None, 0.0),
+        model: Arc::clone(model),
+        images,
+        warnings,
+        notes: Vec::new(),
+    }
 }
 
 /// The reason why a scene cannot be shown.

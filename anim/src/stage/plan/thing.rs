@@ -8,6 +8,7 @@ use super::poses::PoseLane;
 use super::properties::PropertyLane;
 use super::spot::StageSpot;
 use crate::stage::model::StageModel;
+use crate::stage::path::StagePath;
 use std::sync::Arc;
 
 /// What is in focus.
@@ -32,6 +33,8 @@ pub struct PlannedThing {
     pub scale: f64,
     /// Its model; `None` for things without one.
     pub model: Option<Arc<StageModel>>,
+    /// Its way; `None` for things that are no path.
+    pub path: Option<Arc<StagePath>>,
     pub(super) places: PlaceLane,
     /// The first lane is that of the whole body.
     pub(super) poses: Vec<PoseLane>,
