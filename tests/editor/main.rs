@@ -82,6 +82,7 @@ mod root_bone;
 mod ruler;
 mod saved_pending;
 mod scene_commands;
+mod scene_examples;
 mod screen;
 mod second_skeleton;
 mod selection_sets;

@@ -11,6 +11,7 @@ use glam::{Mat4, Vec3};
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A primitive of a mesh, as part of an instance.
 #[derive(Clone, Copy, Debug)]
@@ -85,8 +86,12 @@ pub struct DrawSet {
     /// Distances and indices of the blended items, farthest first.
     back_to_front: Vec<(f32, u32)>,
     batches: DrawBatches,
-    revision: u64,
+    /// Number of this set among all sets, and how often it was written.
+    revision: (u64, u64),
 }
+
+/// Number of sets made so far.
+static SETS: AtomicU64 = AtomicU64::new(0);
 
 impl DrawSet {
     /// Allocates memory for `copies` of `loaded`; all matrices are the identity.
@@ -116,7 +121,7 @@ impl DrawSet {
             part_boxes,
             layout,
             loaded,
-            revision: 0,
+            revision: (SETS.fetch_add(1, Ordering::Relaxed), 0),
         }
     }
 
@@ -150,8 +155,8 @@ impl DrawSet {
         self.items.iter().filter(|item| item.blend).count()
     }
 
-    /// A number that grows whenever matrices or weights were written.
-    pub fn revision(&self) -> u64 {
+    /// Numbers that change whenever matrices or weights are written, and that no two sets have in common.
+    pub fn revision(&self) -> (u64, u64) {
         self.revision
     }
 
@@ -167,7 +172,7 @@ impl DrawSet {
 
     /// The layout, and the matrices and morph weights of a copy, to be written.
     pub(super) fn write(&mut self, copy: usize) -> (&PaletteLayout, &mut [Affine], &mut [f32]) {
-        self.revision += 1;
+        self.revision.1 += 1;
         let (part, count) = (self.part_of(copy), self.layout.weight_count);
         (&self.layout, &mut self.palettes[part], &mut self.weights[copy * count..(copy + 1) * count])
     }

@@ -26,7 +26,7 @@ pub(super) struct ModelContent {
     geometries: HashMap<(u32, u32), GpuGeometry>,
     poses: PoseBuffers,
     /// Revision of the matrices and weights that the device has.
-    revision: Option<u64>,
+    revision: Option<(u64, u64)>,
 }
 
 /// Memory for the poses of a number of copies.
