@@ -10,6 +10,6 @@ for n in $(seq 0 19); do
 done
 echo '  </cast>'
 for n in $(seq 0 19); do
-  echo "  <play who=\"role-$n\" take=\"Cheer\" begin=\"$((n * 3))f\" repeat=\"2\" fade-in=\"6f\"/>"
+  echo "  <seq><play who=\"role-$n\" take=\"Idle\" repeat=\"fill\" dur=\"$((n * 3))f\"/><play who=\"role-$n\" take=\"Cheer\" repeat=\"2\" fade-in=\"6f\"/></seq>"
 done
 echo '</script>'

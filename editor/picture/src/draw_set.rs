@@ -1,4 +1,4 @@
-//! What a device draws of one model: one list of matrices, one of morph weights, and the items to draw, for one or more copies of it.
+//! The matrices, the morph weights and the items to draw of one model, in one or more copies, as a device needs them.
 
 use super::batch::DrawBatches;
 use super::contact::add_boxes;
@@ -22,7 +22,7 @@ pub struct DrawItem {
     pub primitive: u32,
     /// Index in the model's materials.
     pub material: Option<u32>,
-    /// Whether it blends with what is behind it.
+    /// Whether it is transparent.
     pub blend: bool,
     /// Whether alpha discards samples.
     pub mask: bool,
@@ -38,7 +38,7 @@ pub struct DrawItem {
     pub(super) main_matrix: u32,
 }
 
-/// Where the matrices and morph weights of one copy of a model are in their lists: all skins, then one matrix per instance.
+/// The places of the matrices and morph weights of one copy of a model in their lists: all skins, then one matrix per instance.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PaletteLayout {
     /// First matrix of each skin.
@@ -150,7 +150,7 @@ impl DrawSet {
         &self.batches
     }
 
-    /// Number of items that blend with what is behind them.
+    /// Number of transparent items.
     pub(super) fn blended(&self) -> usize {
         self.items.iter().filter(|item| item.blend).count()
     }

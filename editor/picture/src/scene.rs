@@ -127,7 +127,7 @@ impl Scene {
         &self.seen
     }
 
-    /// What is drawn: the model, or the models of the things of a script.
+    /// Returns what is drawn: the model, or the models of the things of a script.
     pub fn draw_sets(&self) -> impl Iterator<Item = &DrawSet> + Clone {
         let model = self.model.as_ref().filter(|_| self.cast.is_none()).map(PosedModel::draws);
         model.into_iter().chain(self.cast.iter().flat_map(PosedScene::draw_sets))

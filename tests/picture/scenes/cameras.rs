@@ -20,7 +20,10 @@ fn check(view: &std::sync::Arc<dragonfly_document::SceneView>, seconds: f32, poi
         let expected = projected(camera.position, camera.rotation, camera.lens, point);
         let Some((drawn, expected)) = drawn_at(&scene, point).zip(expected) else { continue };
         if expected.abs().max_element() < 3.0 {
-            assert!(drawn.distance(expected) < 1e-3, "seed {SEED}: {point} at {seconds}: {drawn}, not {expected}");
+            assert!(
+                drawn.distance(expected) < 1e-3,
+                "seed {SEED}: {point} at {seconds}: {drawn}, not {expected}"
+            );
             compared += 1;
         }
     }

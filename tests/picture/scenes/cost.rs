@@ -17,7 +17,8 @@ const MOST: Duration = Duration::from_millis(2);
 
 #[test]
 fn poses_and_matrices_of_a_hundred_roles_of_67_bones_take_less_than_2_ms_a_frame() {
-    let rig = load_model(&Source::File(data("bench/pab.glb")), &mut |_| {}, &Cancel::default()).expect("the rig");
+    let rig =
+        load_model(&Source::File(data("bench/pab.glb")), &mut |_| {}, &Cancel::default()).expect("the rig");
     assert_eq!(rig.model.animation.skeleton.len(), 67);
     let take = rig.model.animation.takes[0].name.clone();
     let roles: String =

@@ -4,8 +4,7 @@ use super::{SIZE, arms, projected, script, settings, shown, state, view};
 use dragonfly_anim::fast::matrix::mat4;
 use dragonfly_kit::picture::images::difference;
 use dragonfly_kit::picture::studio;
-use dragonfly_picture::ThroughCamera;
-use dragonfly_picture::control::ThingAppearance;
+use dragonfly_picture::{ThingAppearance, ThroughCamera};
 use glam::Vec3;
 use image::RgbaImage;
 use std::time::Instant;
@@ -24,7 +23,9 @@ fn bones_of_each_role_lie_on_its_pixels() {
             for matrix in thing.pose.as_ref().unwrap().to_root.matrices() {
                 // A little along the bone, inside the tube and not at its lower end.
                 let bone = place.transform_point3(mat4(matrix).transform_point3(Vec3::Y * 0.1));
-                let Some(at) = projected(camera.position, camera.rotation, camera.lens, bone) else { continue };
+                let Some(at) = projected(camera.position, camera.rotation, camera.lens, bone) else {
+                    continue;
+                };
                 if at.abs().max_element() < 0.98 {
                     let [x, y] = [(at.x + 1.0) / 2.0 * SIZE[0] as f32, (1.0 - at.y) / 2.0 * SIZE[1] as f32];
                     inside += 1;
@@ -60,7 +61,7 @@ fn roles_of_one_model_share_their_draw_calls() {
 #[test]
 fn what_is_transparent_is_drawn_from_back_to_front_also_between_models() {
     let Some(mut studio) = studio::studio() else { return };
-    // The panes of three arms behind each other; the middle one is of another model of the same shape.
+    // The panes of three arms in a row away from the camera; the middle one is of another model of the same shape.
     let text = script(
         r#"<role id="a" model="arm" at="0 0 0"/><role id="b" model="other" at="0 0 -2"/><role id="c" model="arm" at="0 0 -4"/>
         <camera id="eye" at="0 3 8" look="0 2.5 0"/>"#,
@@ -96,15 +97,18 @@ fn halves(picture: &RgbaImage) -> [f64; 2] {
 fn lamps_of_the_scene_replace_those_of_the_studio() {
     let Some(mut studio) = studio::studio() else { return };
     let lit = |light: &str| {
-        let cast = format!(r#"<role id="a" model="arm"/><camera id="eye" at="0 1.5 5" look="0 1.5 0" lens="50mm"/>{light}"#);
+        let cast = format!(
+            r#"<role id="a" model="arm"/><camera id="eye" at="0 1.5 5" look="0 1.5 0" lens="50mm"/>{light}"#
+        );
         view(&script(&cast, "<wait dur=\"1\"/>"))
     };
-    let mut picture = |light: &str| {
-        studio.render_scene(&lit(light), &settings(ThroughCamera::Shot, 0.0)).unwrap()
-    };
+    let mut picture =
+        |light: &str| studio.render_scene(&lit(light), &settings(ThroughCamera::Shot, 0.0)).unwrap();
     let [studio_left, _] = halves(&picture(""));
     let sun = |x: &str, strength: &str| {
-        format!(r##"<light id="sun" kind="sun" direction="{x} -0.4 -0.4" strength="{strength}" color="#ffffff"/>"##)
+        format!(
+            r##"<light id="sun" kind="sun" direction="{x} -0.4 -0.4" strength="{strength}" color="#ffffff"/>"##
+        )
     };
     let (from_left, from_right) = (halves(&picture(&sun("1", "3"))), halves(&picture(&sun("-1", "3"))));
     println!("studio {studio_left:.0}, from the left {from_left:.0?}, from the right {from_right:.0?}");

@@ -50,9 +50,11 @@ fn view_of(text: &str, loaded: &Arc<LoadedModel>) -> Arc<SceneView> {
         let data = if is_lost { Arc::default() } else { Arc::clone(&loaded.model) };
         assets.add_model(source, Arc::new(StageModel::new(data)));
         let model = SceneModel::Loaded(Arc::clone(loaded));
-        models.insert(source.to_owned(), if is_lost { SceneModel::Missing("gone".to_owned()) } else { model });
+        models
+            .insert(source.to_owned(), if is_lost { SceneModel::Missing("gone".to_owned()) } else { model });
     }
-    let plan = StagePlan::new(&script, &assets).unwrap_or_else(|errors| panic!("{}", errors[0].in_file(text)));
+    let plan =
+        StagePlan::new(&script, &assets).unwrap_or_else(|errors| panic!("{}", errors[0].in_file(text)));
     Arc::new(SceneView {
         text: text.into(),
         script: Some(Arc::new(script)),
@@ -67,8 +69,7 @@ fn shown(view: &Arc<SceneView>, seconds: f32) -> Scene {
     let now = Instant::now();
     let mut scene = Scene::new(now);
     scene.show_scene(view);
-    scene.look =
-        Look { viewport: [0, 0, SIZE[0], SIZE[1]], through: ThroughCamera::Shot, ..Look::default() };
+    scene.look = Look { viewport: [0, 0, SIZE[0], SIZE[1]], through: ThroughCamera::Shot, ..Look::default() };
     let length = view.plan.as_ref().map_or(0.0, |plan| plan.length().seconds());
     scene.playback = PlaybackClock::of_scene(length, now).seek(seconds, now);
     scene.prepare(now);
@@ -83,7 +84,7 @@ fn state(view: &SceneView, seconds: f64) -> StageScene {
     state
 }
 
-/// Returns where a point is in the image of a camera: right and up from -1 to 1; `None` behind it.
+/// Returns where a point is in the image of a camera: right and up from -1 to 1; `None` for one that is not in front of it.
 ///
 /// An image 36 mm wide at the distance of the focal length.
 fn projected(position: Vec3, rotation: Quat, lens: f32, point: Vec3) -> Option<Vec2> {
@@ -101,5 +102,12 @@ fn drawn_at(scene: &Scene, point: Vec3) -> Option<Vec2> {
 
 fn settings(through: ThroughCamera, time: f32) -> PictureSettings {
     let look = Look { through, ..Look::default() };
-    PictureSettings { size: SIZE, time, look, background: Some([0; 4]), grid: false, ..PictureSettings::default() }
+    PictureSettings {
+        size: SIZE,
+        time,
+        look,
+        background: Some([0; 4]),
+        grid: false,
+        ..PictureSettings::default()
+    }
 }

@@ -53,7 +53,9 @@ fn cameras_and_marks_are_picked_where_they_are_drawn() {
     let view = view(&arms());
     let mut scene = shown(&view, 0.0);
     let door = pixel(&scene, Vec3::new(0.0, 0.0, 2.0));
-    let near = |scene: &mut Scene| scene.pick_things([door[0] + 4.0, door[1]]).first().map(|picked| picked.thing.to_string());
+    let near = |scene: &mut Scene| {
+        scene.pick_things([door[0] + 4.0, door[1]]).first().map(|picked| picked.thing.to_string())
+    };
     assert_eq!(near(&mut scene), None, "it is not drawn");
     scene.look.helpers = true;
     scene.prepare(Instant::now());

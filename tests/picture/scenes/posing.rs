@@ -15,18 +15,21 @@ fn expected(view: &SceneView, seconds: f64) -> Vec<Mat4> {
     let state = state(view, seconds);
     let plan = view.plan.as_ref().unwrap();
     let roles = plan.things().iter().zip(&state.things).filter(|(thing, _)| thing.model.is_some());
-    let matrices = |(thing, state): (&dragonfly_anim::stage::PlannedThing, &dragonfly_anim::stage::ThingState)| {
-        let model = thing.model.as_ref().unwrap().data();
-        let Transform { translation, rotation, scale } = state.transform;
-        let place = Mat4::from_scale_rotation_translation(scale, rotation, translation);
-        let to_root = |bone: u32| mat4(state.pose.as_ref().unwrap().to_root.get(bone as usize));
-        let skin = &model.skins[0];
-        let joints = skin.bones.iter().zip(&skin.offsets).map(|(&bone, offset)| place * to_root(bone) * *offset);
-        let rigid = model.instances.iter().map(|instance| {
-            place * instance.bone.map_or(Mat4::IDENTITY, to_root) * instance.to_bone
-        });
-        joints.chain(rigid).collect::<Vec<_>>()
-    };
+    let matrices =
+        |(thing, state): (&dragonfly_anim::stage::PlannedThing, &dragonfly_anim::stage::ThingState)| {
+            let model = thing.model.as_ref().unwrap().data();
+            let Transform { translation, rotation, scale } = state.transform;
+            let place = Mat4::from_scale_rotation_translation(scale, rotation, translation);
+            let to_root = |bone: u32| mat4(state.pose.as_ref().unwrap().to_root.get(bone as usize));
+            let skin = &model.skins[0];
+            let joints =
+                skin.bones.iter().zip(&skin.offsets).map(|(&bone, offset)| place * to_root(bone) * *offset);
+            let rigid = model
+                .instances
+                .iter()
+                .map(|instance| place * instance.bone.map_or(Mat4::IDENTITY, to_root) * instance.to_bone);
+            joints.chain(rigid).collect::<Vec<_>>()
+        };
     roles.flat_map(matrices).collect()
 }
 
@@ -41,7 +44,10 @@ fn each_role_has_the_matrices_of_its_pose_at_its_place() {
         let (drawn, expected) = (palettes(&shown(&view, seconds)), expected(&view, f64::from(seconds)));
         assert_eq!(drawn.len(), expected.len(), "two copies of one model");
         for (at, (drawn, expected)) in drawn.iter().zip(&expected).enumerate() {
-            assert!(drawn.abs_diff_eq(*expected, 1e-4), "matrix {at} at {seconds}: {drawn} is not {expected}");
+            assert!(
+                drawn.abs_diff_eq(*expected, 1e-4),
+                "matrix {at} at {seconds}: {drawn} is not {expected}"
+            );
         }
     }
 }
@@ -102,7 +108,10 @@ fn the_box_around_a_role_has_its_bones_inside_and_bounds_have_all_boxes() {
         let place = state.things[thing].transform.to_matrix();
         for matrix in state.things[thing].pose.as_ref().unwrap().to_root.matrices() {
             let bone = place.transform_point3(mat4(matrix).w_axis.truncate());
-            assert!((around.min - 1e-3).cmple(bone).all() && bone.cmple(around.max + 1e-3).all(), "{bone} {around:?}");
+            assert!(
+                (around.min - 1e-3).cmple(bone).all() && bone.cmple(around.max + 1e-3).all(),
+                "{bone} {around:?}"
+            );
         }
         assert!(scene.bounds().contains(around.min) && scene.bounds().contains(around.max));
     }

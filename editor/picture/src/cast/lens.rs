@@ -14,7 +14,7 @@ pub(super) fn camera(seen: &StageCamera, image: f32, viewport: f32, bounds: &Sph
     let [right, back] = [Vec3::X, Vec3::Z].map(|axis| seen.rotation * axis);
     let pitch = back.y.clamp(-1.0, 1.0).asin();
     let level = Vec3::new(back.x, 0.0, back.z);
-    // Straight up or down only the direction to the right tells the yaw.
+    // For a camera that looks straight up or down, the yaw follows from the direction to the right.
     let yaw = if level.length_squared() > 1e-12 { back.x.atan2(back.z) } else { (-right.z).atan2(right.x) };
     let half_height = HALF_IMAGE / seen.lens.max(0.1) / viewport.min(image).max(1e-3);
     let away = (seen.position - bounds.center).dot(back);

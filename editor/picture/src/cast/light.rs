@@ -84,7 +84,7 @@ pub(super) fn update(lights: &mut [SceneLight], state: &StageScene) {
     }
 }
 
-/// Writes the lights for the device, those that are not dark; as many as there is room for. Returns their number.
+/// Writes the lights that are not dark for the device, up to the length of `out`. Returns their number.
 pub(super) fn write(lights: &[SceneLight], out: &mut [LightUniform]) -> usize {
     let bright = lights.iter().filter(|light| light.color.max_element() > 0.0);
     let mut count = 0;

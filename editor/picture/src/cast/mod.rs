@@ -46,7 +46,7 @@ pub enum ThroughCamera {
     Of(Arc<str>),
 }
 
-/// Where a thing is drawn: its group, and its copy in it.
+/// The place of a thing among what is drawn: its group, and its copy in it.
 #[derive(Clone, Copy, Debug)]
 struct CastMember {
     group: usize,

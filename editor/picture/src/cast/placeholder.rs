@@ -1,4 +1,4 @@
-//! What stands for models that are missing or still being read: a figure of human size, or a box for props.
+//! Placeholders for models that are missing or still being read: a figure of human size, or a box for props.
 
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{Material, Mesh, MeshInstance, Metallic, ModelData, Primitive, Vertices};
@@ -33,7 +33,7 @@ const COLORS: [[f32; 3]; 8] = [
 pub(super) struct Placeholders([[Option<Arc<LoadedModel>>; COLORS.len()]; 2]);
 
 impl Placeholders {
-    /// Returns the placeholder of the thing called `id`: a figure for a role, else a box.
+    /// Returns the placeholder of the thing called `id`: a figure for a role, a box for a prop.
     pub(super) fn of(&mut self, id: &str, is_role: bool) -> Arc<LoadedModel> {
         let number = id.bytes().fold(0_u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()));
         let color = number as usize % COLORS.len();
@@ -87,7 +87,7 @@ pub(crate) fn made_model(title: &str, model: ModelData) -> LoadedModel {
     }
 }
 
-/// A capsule that stands on the ground, with a nose to the front, +z.
+/// Returns a capsule on the ground, with a nose to the front, +z.
 fn figure() -> Primitive {
     let mut vertices = Vertices::default();
     let mut indices = Vec::new();
@@ -116,7 +116,7 @@ fn figure() -> Primitive {
     Primitive { vertices, indices, ..Primitive::default() }
 }
 
-/// A cube that lies on the ground.
+/// Returns a cube on the ground.
 fn cube() -> Primitive {
     let (mut vertices, mut indices) = (Vertices::default(), Vec::new());
     add_cuboid(&mut vertices, &mut indices, Vec3::Y * HALF_SIDE, Vec3::splat(HALF_SIDE));

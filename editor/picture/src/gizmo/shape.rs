@@ -27,7 +27,7 @@ pub enum GizmoRole {
     Past = 6,
     /// Times after the present one.
     Future = 7,
-    /// What is selected: the accent of the program.
+    /// Selected things, in the accent color of the program.
     Selected = 8,
 }
 

@@ -10,7 +10,7 @@ use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use wgpu::util::DeviceExt;
 
-/// What the materials of all models share.
+/// Device resources that the materials of all models share.
 pub(super) struct GpuMaterials {
     /// Layout of the bind groups.
     pub(super) layout: wgpu::BindGroupLayout,

@@ -43,7 +43,7 @@ impl Scene {
         near.into_iter().map(|(_, thing)| cast.picked(thing, None)).collect()
     }
 
-    /// Returns the middle of each thing that can be picked, in a viewport of this size; things behind the camera are left out.
+    /// Returns the middle of each thing that can be picked, in a viewport of this size; things that are not in front of the camera are left out.
     fn places(&self, size: Vec2) -> impl Iterator<Item = (usize, Vec2)> {
         let clip_from_world = self.clip_from_world(&self.bounds().sphere);
         let helpers = self.look.helpers;

@@ -70,7 +70,7 @@ impl ShotChoice {
     }
 }
 
-/// What is rendered of a scene.
+/// An order to render images of a scene.
 pub(in crate::command) struct RenderOrder<'a> {
     /// Seconds.
     pub(in crate::command) time: f32,
