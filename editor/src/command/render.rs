@@ -42,7 +42,7 @@ pub(super) struct RenderArguments {
 /// Camera, size and background of the image.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct RenderView {
-    /// Width and height in pixels [default: 1280x720; of a scene, as its script says]
+    /// Width and height in pixels [default: 1280x720, or the size in the script of a scene]
     #[arg(long, value_name = "WxH")]
     pub size: Option<Size>,
     /// Camera angle around the model, degrees; 0 is its front, 90 its left side
