@@ -126,22 +126,24 @@ fn frames_are_images_at_their_exact_times_in_the_size_of_the_script() {
 
 #[test]
 fn wrong_orders_for_images_of_scenes_are_refused_with_what_there_is() {
-    let script = example("duel");
+    let folder = Folder::new("scene-refused");
+    let (script, image) = (example("duel"), folder.join("x.png"));
+    let image = text(&image);
     let refused = |order: &[&str], expected: &str| {
         let all = ["render", text(&script)].into_iter().chain(order.iter().copied());
         let outcome = run(all).expect(2);
         assert!(outcome.stderr.contains(expected), "{}", outcome.stderr);
     };
     refused(
-        &["--camera", "side", "-o", "x.png"],
+        &["--camera", "side", "-o", image],
         "no camera is called \"side\"; there is shot, free, wide, close, over",
     );
-    refused(&["--frames", "3..1", "-o", "x.png"], "ends before it begins");
-    refused(&["--frames", "all", "-o", "x.png"], "write for example 0..47");
+    refused(&["--frames", "3..1", "-o", image], "ends before it begins");
+    refused(&["--frames", "all", "-o", image], "write for example 0..47");
     refused(&["--frames", "0..1", "-o", "-"], "cannot be written to standard output");
-    refused(&["--frames", "0..1", "--time", "1", "-o", "x.png"], "cannot be used with");
+    refused(&["--frames", "0..1", "--time", "1", "-o", image], "cannot be used with");
     let model = script.with_file_name("models").join("knife.gltf");
-    let outcome = run(["render", text(&model), "--camera", "wide", "-o", "x.png"]).expect(2);
+    let outcome = run(["render", text(&model), "--camera", "wide", "-o", image]).expect(2);
     assert!(outcome.stderr.contains("has to be the script of a scene"), "{}", outcome.stderr);
 }
 
