@@ -2,7 +2,7 @@
 
 // Rust twin: picture::pass::controls::ControlStyle
 struct Style {
-    colors: array<vec4f, 8>,
+    colors: array<vec4f, 9>,
     // Half the width of a line, pixels.
     half_width: f32,
 }
@@ -23,7 +23,7 @@ struct Face {
 }
 
 fn color_of(role: u32) -> vec3f {
-    return style.colors[min(role, 7u)].rgb;
+    return style.colors[min(role, 8u)].rgb;
 }
 
 // Clip-space position; never clipped by the near and far plane, because handles may be nearer than the whole scene.

@@ -28,7 +28,7 @@ fn lines(world: vec2f, footprint: vec2f, step: f32, width: f32) -> f32 {
 // Share of the light that parts near the ground keep away from it, 0..1.
 fn contact_shadow(world: vec2f) -> f32 {
     var light = 1.0;
-    for (var index = 0u; index < SPOTS; index++) {
+    for (var index = 0u; index < min(u32(frame.counts.z), SPOTS); index++) {
         let spot = frame.contact[index];
         let away = length(world - spot.xy) / max(spot.z, 1e-9);
         let inside = clamp(1.0 - away * away, 0.0, 1.0);

@@ -113,7 +113,7 @@ const EXPOSURE: f32 = 0.76;
 
 // With `thin`, this share of the light on the far side passes through: wings, leaves, cloth.
 fn lit_metallic(
-    base: vec3f, metallic: f32, roughness: f32, normal: vec3f, view: vec3f, occlusion: f32, thin: f32,
+    base: vec3f, metallic: f32, roughness: f32, normal: vec3f, world: vec3f, view: vec3f, occlusion: f32, thin: f32,
 ) -> vec3f {
     let diffuse = base * (1.0 - metallic);
     let f0 = mix(vec3f(0.04), base, metallic);
@@ -122,8 +122,8 @@ fn lit_metallic(
     let studio_view = studio_from_world(view);
     let ambient = mix(studio_ambient(studio_normal), studio_ambient(-studio_normal), 0.5 * thin);
     var light = diffuse * ambient * occlusion;
-    for (var index = 0u; index < LIGHT_COUNT; index++) {
-        let lamp = studio_light(index);
+    for (var index = 0u; index < lamp_count(); index++) {
+        let lamp = lamp_at(index, world);
         let facing = dot(studio_normal, lamp.direction);
         light += diffuse * lamp.color * max(facing, -facing * thin);
         light += lamp.color * highlight(studio_normal, studio_view, lamp.direction, f0, roughness);
@@ -136,12 +136,12 @@ fn lit_metallic(
 }
 
 // Phong lighting as in thesis §2.1.6.2: ambient, diffuse, and a highlight around the reflected light direction.
-fn lit_phong(base: vec3f, normal: vec3f, view: vec3f, occlusion: f32) -> vec3f {
+fn lit_phong(base: vec3f, normal: vec3f, world: vec3f, view: vec3f, occlusion: f32) -> vec3f {
     let studio_normal = studio_from_world(normal);
     let studio_view = studio_from_world(view);
     var light = base * material.phong_ambient.rgb * studio_ambient(studio_normal) * 2.0 * occlusion;
-    for (var index = 0u; index < LIGHT_COUNT; index++) {
-        let lamp = studio_light(index);
+    for (var index = 0u; index < lamp_count(); index++) {
+        let lamp = lamp_at(index, world);
         let n_dot_l = max(dot(studio_normal, lamp.direction), 0.0);
         light += base * material.phong_diffuse.rgb * lamp.color * n_dot_l;
         let mirrored = reflect(-lamp.direction, studio_normal);
@@ -210,7 +210,7 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
         return shown(base.rgb, alpha);
     }
     if frame.studio.z > 0.5 {
-        let clay = lit_metallic(vec3f(0.50, 0.485, 0.47), 0.0, 0.62, smooth_normal, view, 1.0, 0.0);
+        let clay = lit_metallic(vec3f(0.50, 0.485, 0.47), 0.0, 0.62, smooth_normal, in.world, view, 1.0, 0.0);
         return shown(tone_map(clay), alpha);
     }
     if material.unlit == 1u {
@@ -218,11 +218,12 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
     }
     var light: vec3f;
     if material.use_phong == 1u {
-        light = lit_phong(base.rgb, normal, view, occlusion);
+        light = lit_phong(base.rgb, normal, in.world, view, occlusion);
     } else {
         // Transparent surfaces also transmit light.
         let thin = select(0.0, 0.8, material.alpha_mode == 2u);
-        light = lit_metallic(base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, view, occlusion, thin);
+        light = lit_metallic(
+            base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, in.world, view, occlusion, thin);
     }
     return shown(tone_map(EXPOSURE * (light + emissive)), alpha);
 }

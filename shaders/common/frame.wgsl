@@ -1,7 +1,20 @@
 // Data of this frame for every pass of the scene.
 
 // Rust twin: picture::uniform::SPOTS
-const SPOTS: u32 = 16u;
+const SPOTS: u32 = 64u;
+
+// Rust twin: picture::uniform::LIGHTS
+const LIGHTS: u32 = 8u;
+
+// A light of the scene. Rust twin: picture::uniform::LightUniform
+struct SceneLight {
+    // w: 0 for a sun, 1 for a point light, 2 for a spot light.
+    position: vec4f,
+    // Direction in which it shines.
+    direction: vec4f,
+    // Light that a white matte surface reflects where it faces the light, at a distance of 1 if it is no sun.
+    color: vec4f,
+}
 
 // Rust twin: picture::uniform::FrameUniform
 struct Frame {
@@ -27,6 +40,9 @@ struct Frame {
     accent: vec4f,
     // Spots of the contact shadow: center x and z, radius, strength.
     contact: array<vec4f, SPOTS>,
+    // Number of lights of the scene, share of the studio's ambient light, number of spots.
+    counts: vec4f,
+    lights: array<SceneLight, LIGHTS>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

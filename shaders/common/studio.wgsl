@@ -27,12 +27,41 @@ fn studio_from_world(direction: vec3f) -> vec3f {
     return vec3f(c * direction.x - s * direction.z, direction.y, s * direction.x + c * direction.z);
 }
 
+// Number of lamps: the lights of the scene, or those of the studio if it has none.
+fn lamp_count() -> u32 {
+    let own = min(u32(frame.counts.x), LIGHTS);
+    return select(LIGHT_COUNT, own, own > 0u);
+}
+
+// Cosines of the angles from its axis at which a spot light begins to fade, and at which it is dark.
+const SPOT_INSIDE: f32 = 0.94;
+const SPOT_OUTSIDE: f32 = 0.87;
+
+// A lamp as it shines on a point of the scene.
+fn lamp_at(index: u32, world: vec3f) -> Light {
+    if frame.counts.x < 0.5 {
+        return studio_light(index);
+    }
+    let lamp = frame.lights[index];
+    if lamp.position.w < 0.5 {
+        return Light(studio_from_world(-lamp.direction.xyz), lamp.color.rgb);
+    }
+    let away = lamp.position.xyz - world;
+    let squared = max(dot(away, away), 1e-4);
+    let towards = away * inverseSqrt(squared);
+    var strength = 1.0 / squared;
+    if lamp.position.w > 1.5 {
+        strength *= smoothstep(SPOT_OUTSIDE, SPOT_INSIDE, dot(-towards, lamp.direction.xyz));
+    }
+    return Light(studio_from_world(towards), lamp.color.rgb * strength);
+}
+
 // Ambient light on a matte surface with this normal (studio space).
 fn studio_ambient(normal: vec3f) -> vec3f {
     let above = vec3f(0.375, 0.395, 0.43);
     let below = vec3f(0.155, 0.148, 0.142);
     let side = 0.06 * max(normal.z, 0.0);
-    return mix(below, above, smoothstep(-1.0, 1.0, normal.y)) + side;
+    return frame.counts.y * (mix(below, above, smoothstep(-1.0, 1.0, normal.y)) + side);
 }
 
 // Light of a soft box in direction `along`, blurred by roughness.
@@ -47,6 +76,9 @@ fn studio_reflection(along: vec3f, roughness: f32) -> vec3f {
     let blur = mix(0.08, 1.0, roughness);
     let walls = mix(vec3f(0.10, 0.097, 0.094), vec3f(0.34, 0.36, 0.40), smoothstep(-blur, blur, along.y));
     let ceiling = vec3f(0.42, 0.44, 0.47) * smoothstep(0.35 - blur, 0.75 + blur, along.y);
+    if frame.counts.x > 0.5 {
+        return frame.counts.y * (walls + ceiling);
+    }
     let key = vec3f(3.4, 3.3, 3.1) * soft_box(along, studio_light(0u).direction, 22.0, roughness);
     let fill = vec3f(0.55, 0.62, 0.72) * soft_box(along, studio_light(1u).direction, 12.0, roughness);
     let rim = vec3f(1.1, 1.15, 1.25) * soft_box(along, studio_light(2u).direction, 16.0, roughness);

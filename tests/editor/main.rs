@@ -84,6 +84,7 @@ mod ruler;
 mod saved_pending;
 mod scene_commands;
 mod scene_documents;
+mod scene_examples;
 mod screen;
 mod second_skeleton;
 mod selection_sets;

@@ -271,7 +271,7 @@ fn a_request_is_answered_and_the_newest_camera_is_used() {
     bench.graphics.pick([20.0 + 140.0, 10.0 + 90.0], 7);
     bench.settle();
     let picked = bench.take().into_iter().find_map(|reply| match reply {
-        GraphicsReply::Picked { bone, ticket } => Some((bone, ticket)),
+        GraphicsReply::Picked { bone, ticket, .. } => Some((bone, ticket)),
         _ => None,
     });
     assert_eq!(picked, Some((Some(1), 7)));

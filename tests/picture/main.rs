@@ -20,6 +20,7 @@ mod picture;
 mod playback;
 mod reference_picture;
 mod samples;
+mod scenes;
 mod shaders;
 mod skinning_on_device;
 mod surface_thread;

@@ -4,12 +4,14 @@ use super::adapter::TextFiles;
 use super::load::load_inside;
 use super::scene_lines::SceneLines;
 use super::scene_models::with_edits;
+use super::scene_view::{SceneModel, SceneView};
 use super::source::LoadError;
 use super::text_source::{is_project, read_texts};
-use super::{Cancel, Folder};
+use super::{Cancel, Folder, LoadedModel};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptError, StageScript};
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
@@ -25,6 +27,29 @@ pub struct LoadedScene {
     pub plan: StagePlan,
     /// Edits of models that the project keeps and that do not fit them, a sentence for each model.
     pub warnings: Vec<String>,
+    models: Arc<BTreeMap<String, SceneModel>>,
+}
+
+impl LoadedScene {
+    /// Returns the scene as it is drawn.
+    pub fn view(&self) -> SceneView {
+        SceneView {
+            text: Arc::clone(self.script.tree().text()),
+            name: self.title.as_str().into(),
+            script: Some(Arc::new(self.script.clone())),
+            plan: Some(Arc::new(self.plan.clone())),
+            models: Arc::clone(&self.models),
+            ..SceneView::default()
+        }
+    }
+}
+
+/// The models of a scene, and what the user should know about them.
+#[derive(Default)]
+struct SceneAssets {
+    assets: StageAssets,
+    models: BTreeMap<String, SceneModel>,
+    warnings: Vec<String>,
 }
 
 /// The reason why a scene cannot be shown.
@@ -83,7 +108,7 @@ pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoad
     let wrong = |errors| SceneLoadError::Script { title: title.clone(), errors };
     let script = StageScript::read_of(Arc::clone(&script.text), project.as_ref()).map_err(wrong)?;
     let found = load_assets(&script, project.as_ref(), &read.texts, &folder, cancel)?.map_err(wrong)?;
-    let (mut assets, warnings) = found;
+    let SceneAssets { mut assets, models, warnings } = found;
     let mut lines = SceneLines::default();
     lines.update(project.as_ref(), &read.texts, &mut assets);
     if !lines.errors.is_empty() {
@@ -91,7 +116,7 @@ pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoad
         return Err(SceneLoadError::Script { title, errors: lines.errors.to_vec() });
     }
     let plan = StagePlan::new(&script, &assets).map_err(wrong)?;
-    Ok(LoadedScene { title, script, plan, warnings })
+    Ok(LoadedScene { title, script, plan, warnings, models: Arc::new(models) })
 }
 
 /// Loads each model that a script names, once.
@@ -101,13 +126,13 @@ fn load_assets(
     texts: &TextFiles,
     folder: &Folder,
     cancel: &Cancel,
-) -> Result<Result<(StageAssets, Vec<String>), Vec<ScriptError>>, SceneLoadError> {
-    let (mut assets, mut errors, mut warnings) = (StageAssets::default(), Vec::new(), Vec::new());
+) -> Result<Result<SceneAssets, Vec<ScriptError>>, SceneLoadError> {
+    let (mut found, mut errors) = (SceneAssets::default(), Vec::new());
     for source in script.things().filter_map(|thing| thing.attribute("model")) {
         if cancel.is_cancelled() {
             return Err(SceneLoadError::Cancelled);
         }
-        if assets.model(&source.value).is_some() {
+        if found.assets.model(&source.value).is_some() {
             continue;
         }
         let file = project.map_or(&*source.value, |project| project.source_of(&source.value));
@@ -116,10 +141,12 @@ fn load_assets(
                 let edits = project.and_then(|project| project.edits_of(&source.value));
                 let (model, reason) = match edits.and_then(|name| texts.called(name)) {
                     Some(edits) => with_edits(&loaded.model, file, &edits.text),
-                    None => (loaded.model, None),
+                    None => (Arc::clone(&loaded.model), None),
                 };
-                warnings.extend(reason);
-                assets.add_model(&*source.value, Arc::new(StageModel::new(model)));
+                found.warnings.extend(reason);
+                found.assets.add_model(&*source.value, Arc::new(StageModel::new(Arc::clone(&model))));
+                let loaded = SceneModel::Loaded(Arc::new(LoadedModel { model, ..loaded }));
+                found.models.insert(source.value.to_string(), loaded);
             }
             Err(LoadError::Cancelled) => return Err(SceneLoadError::Cancelled),
             Err(reason) => {
@@ -136,5 +163,5 @@ fn load_assets(
             }
         }
     }
-    Ok(if errors.is_empty() { Ok((assets, warnings)) } else { Err(errors) })
+    Ok(if errors.is_empty() { Ok(found) } else { Err(errors) })
 }

@@ -1,7 +1,7 @@
 //! The draw calls of a pose: instances of the same part of a mesh share one, and instances outside the view have none.
 
+use super::draw_set::DrawItem;
 use super::frustum::ViewFrustum;
-use super::posed::DrawItem;
 use super::uniform::{Affine, DrawInstance};
 use glam::Mat4;
 use std::collections::HashMap;
@@ -89,14 +89,26 @@ impl DrawBatches {
             }
         }
         for &(_, index) in back_to_front.unwrap_or_default() {
-            let index = index as usize;
-            let item = &items[index];
-            if item.may_show(palettes, frustum) {
-                // The far side of a surface is drawn before its near side, so both belong to one instance.
-                let shares = !item.double_sided;
-                let mirrored = item.is_mirrored(palettes);
-                append(&mut self.blended, &mut self.instances, items, index, mirrored, shares);
-            }
+            self.add_blended(items, palettes, index as usize, frustum, false);
+        }
+    }
+
+    /// Adds a draw call of blended item number `index`, if it is inside `frustum`. It may share that of the item added before, unless it
+    /// `is_first`. Allocates nothing.
+    pub(super) fn add_blended(
+        &mut self,
+        items: &[DrawItem],
+        palettes: &[Affine],
+        index: usize,
+        frustum: &ViewFrustum,
+        is_first: bool,
+    ) {
+        let item = &items[index];
+        if item.may_show(palettes, frustum) {
+            // The far side of a surface is drawn before its near side, so both belong to one instance.
+            let shares = !item.double_sided && !is_first;
+            let mirrored = item.is_mirrored(palettes);
+            append(&mut self.blended, &mut self.instances, items, index, mirrored, shares);
         }
     }
 }

@@ -54,6 +54,8 @@ pub struct Camera {
     pub yaw: f32,
     /// Elevation, radians; positive looks from above.
     pub pitch: f32,
+    /// Rotation about the line of sight, radians; positive turns the image clockwise. Only cameras of a script are rotated so.
+    pub roll: f32,
     /// Vertical field of view, radians.
     pub field_of_view: f32,
     /// Perspective or orthographic.
@@ -73,6 +75,7 @@ impl Default for Camera {
             distance: 3.0,
             yaw: 0.5,
             pitch: 0.26,
+            roll: 0.0,
             field_of_view: 35.0_f32.to_radians(),
             projection: Projection::Perspective,
         }
@@ -80,10 +83,15 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// Unit vector to the right of the image; horizontal, so it is defined even when looking straight down.
+    /// Unit vector to the right of the image; horizontal without roll, so it is defined even when looking straight down.
     pub fn right(&self) -> Vec3 {
         let (sin, cos) = self.yaw.sin_cos();
-        Vec3::new(cos, 0.0, -sin)
+        let level = Vec3::new(cos, 0.0, -sin);
+        if self.roll == 0.0 {
+            return level;
+        }
+        let (sin, cos) = self.roll.sin_cos();
+        level * cos + self.back().cross(level) * sin
     }
 
     /// Unit vector from the target to the camera.

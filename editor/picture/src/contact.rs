@@ -3,7 +3,7 @@
 //! A part is what one matrix moves most: the vertices of a bone, or a whole rigid mesh. Its box is found once; in a frame only
 //! the boxes are moved, so a spot costs the same however many vertices there are.
 
-use super::uniform::{Affine, SPOTS};
+use super::uniform::Affine;
 use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::data::Primitive;
 use glam::{Vec3, Vec4};
@@ -32,10 +32,9 @@ pub(super) fn add_boxes(boxes: &mut [AxisBox], primitive: &Primitive, first: usi
     }
 }
 
-/// Returns the spots below a model of this radius, with the boxes of its parts and their matrices: center x and z, radius,
-/// strength; those that are not used have no strength. Allocates nothing.
-pub(super) fn spots(boxes: &[AxisBox], matrices: &[Affine], radius: f32) -> [Vec4; SPOTS] {
-    let mut spots = [Vec4::ZERO; SPOTS];
+/// Adds the spots below a model of this radius, with the boxes of its parts and their matrices, to `spots`: center x and z, radius,
+/// strength. The strongest replace those that are weaker. Allocates nothing.
+pub(super) fn add_spots(spots: &mut [Vec4], boxes: &[AxisBox], matrices: &[Affine], radius: f32) {
     let reach = (REACH * radius).max(1e-6);
     for (part, matrix) in boxes.iter().zip(matrices) {
         let Some(spot) = spot(part, matrix, reach) else { continue };
@@ -44,7 +43,6 @@ pub(super) fn spots(boxes: &[AxisBox], matrices: &[Affine], radius: f32) -> [Vec
             *weakest = spot;
         }
     }
-    spots
 }
 
 /// Returns the spot below a part; `None` if it is too high, below the ground, or empty.

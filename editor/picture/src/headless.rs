@@ -4,10 +4,12 @@ use super::device::DeviceParameters;
 use super::error::GraphicsError;
 use super::message::{Look, Shading};
 use super::stage::{FrameOpening, RenderStage};
+use super::titles::TitleDrawer;
 use crate::camera::Camera;
 use crate::playback::PlaybackClock;
+use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::evaluator::Evaluator;
-use dragonfly_document::LoadedModel;
+use dragonfly_document::{LoadedModel, SceneView};
 use image::RgbaImage;
 use std::sync::Arc;
 use std::time::Instant;
@@ -19,7 +21,7 @@ pub struct PictureSettings {
     pub size: [u32; 2],
     /// Index of the take; `None` shows the rest pose.
     pub take: Option<usize>,
-    /// Time in the take, seconds, clamped to the take.
+    /// Time in the take, seconds, clamped to the take; of a scene, any time.
     pub time: f32,
     /// Yaw of the camera, radians; 0 from the front.
     pub yaw: f32,
@@ -64,10 +66,17 @@ pub fn render_picture(
     Studio::new()?.render(loaded, settings)
 }
 
+/// What an image is of.
+enum StudioSubject {
+    Model(Arc<LoadedModel>),
+    Scene(Arc<SceneView>),
+}
+
 /// Renders images one after another with one device.
 pub struct Studio {
     stage: RenderStage,
-    shown: Option<Arc<LoadedModel>>,
+    shown: Option<StudioSubject>,
+    titles: TitleDrawer,
 }
 
 impl Studio {
@@ -80,7 +89,7 @@ impl Studio {
     pub fn with(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
         let mut stage = RenderStage::new(parameters, Instant::now())?;
         stage.load_at_once(true);
-        Ok(Self { stage, shown: None })
+        Ok(Self { stage, shown: None, titles: TitleDrawer::default() })
     }
 
     /// Returns whether the edges of surfaces are smooth; not on an adapter without multisampling.
@@ -110,12 +119,42 @@ impl Studio {
         loaded: &Arc<LoadedModel>,
         settings: &PictureSettings,
     ) -> Result<RgbaImage, GraphicsError> {
+        self.check_size(settings)?;
+        self.show(loaded);
+        self.draw(settings)
+    }
+
+    /// Renders an image of the scene of a script, with its titles, otherwise as by [`Self::render`]. The take is ignored. A scene without
+    /// a plan is empty.
+    pub fn render_scene(
+        &mut self,
+        scene: &Arc<SceneView>,
+        settings: &PictureSettings,
+    ) -> Result<RgbaImage, GraphicsError> {
+        self.check_size(settings)?;
+        let same = |shown: &StudioSubject| match shown {
+            StudioSubject::Scene(shown) => Arc::ptr_eq(shown, scene),
+            StudioSubject::Model(_) => false,
+        };
+        if !self.shown.as_ref().is_some_and(same) {
+            self.stage.scene.show_scene(scene);
+            self.shown = Some(StudioSubject::Scene(Arc::clone(scene)));
+        }
+        let mut picture = self.draw(settings)?;
+        if let Some(cast) = self.stage.scene.cast() {
+            self.titles.draw(cast, &mut picture);
+        }
+        Ok(picture)
+    }
+
+    fn check_size(&mut self, settings: &PictureSettings) -> Result<(), GraphicsError> {
         let [width, height] = settings.size;
         let limit = self.stage.device().gpu().max_side;
-        if width == 0 || height == 0 || width.max(height) > limit {
-            return Err(GraphicsError::PictureSize { width, height, limit });
-        }
-        self.show(loaded);
+        let is_possible = width > 0 && height > 0 && width.max(height) <= limit;
+        if is_possible { Ok(()) } else { Err(GraphicsError::PictureSize { width, height, limit }) }
+    }
+
+    fn draw(&mut self, settings: &PictureSettings) -> Result<RgbaImage, GraphicsError> {
         let now = Instant::now();
         self.arrange(settings, now);
         let errors = self.stage.device().errors();
@@ -138,9 +177,13 @@ impl Studio {
     }
 
     fn show(&mut self, loaded: &Arc<LoadedModel>) {
-        if self.shown.as_ref().is_none_or(|shown| !Arc::ptr_eq(shown, loaded)) {
+        let same = |shown: &StudioSubject| match shown {
+            StudioSubject::Model(shown) => Arc::ptr_eq(shown, loaded),
+            StudioSubject::Scene(_) => false,
+        };
+        if !self.shown.as_ref().is_some_and(same) {
             self.stage.scene.show_model(Arc::clone(loaded));
-            self.shown = Some(Arc::clone(loaded));
+            self.shown = Some(StudioSubject::Model(Arc::clone(loaded)));
         }
     }
 
@@ -162,9 +205,18 @@ impl Studio {
             scene.background_alpha = f32::from(alpha) / 255.0;
         }
         let mut playback = PlaybackClock { take: settings.take, ..PlaybackClock::rest(now) };
-        let takes = self.shown.as_ref().map_or(&[][..], |shown| &shown.model.animation.takes);
-        if let Some(take) = settings.take.and_then(|take| takes.get(take)) {
-            (playback.start, playback.length) = (take.start, take.length);
+        match &self.shown {
+            Some(StudioSubject::Model(shown)) => {
+                let takes = &shown.model.animation.takes;
+                if let Some(take) = settings.take.and_then(|take| takes.get(take)) {
+                    (playback.start, playback.length) = (take.start, take.length);
+                }
+            }
+            Some(StudioSubject::Scene(scene)) => {
+                let length = scene.plan.as_ref().map_or(0.0, |plan| plan.length().seconds());
+                playback = PlaybackClock::of_scene(length, now);
+            }
+            None => {}
         }
         scene.playback = playback.seek(settings.time, now);
         scene.prepare(now);
@@ -176,7 +228,12 @@ impl Studio {
     fn framing(&self, settings: &PictureSettings, posed: bool) -> Camera {
         let mut camera = Camera { yaw: settings.yaw, pitch: settings.pitch, ..Camera::default() };
         let [width, height] = settings.size.map(|side| side.max(1) as f32);
-        if let Some(model) = self.stage.scene.model() {
+        if let Some(cast) = self.stage.scene.cast() {
+            let boxes: Vec<_> = (0..cast.plan().things().len()).map(|thing| cast.box_of(thing)).collect();
+            let corners: Vec<_> = boxes.iter().flat_map(AxisBox::corners).collect();
+            camera.frame_points(&corners, width / height);
+            camera.dolly(1.12);
+        } else if let Some(model) = self.stage.scene.model() {
             let mut evaluator = Evaluator::new(Arc::clone(&model.loaded().model));
             let playback = &self.stage.scene.playback;
             if posed {

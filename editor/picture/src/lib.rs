@@ -6,7 +6,8 @@
 //!
 //! ```text
 //! Scene (what is shown, camera, time)       on the processor, allocates nothing while playing
-//!   └ PosedModel: anim's evaluator → matrices, morph weights, bones
+//!   ├ PosedModel: anim's evaluator → matrices, morph weights, bones
+//!   └ PosedScene: the things of a script, by their models
 //! Stage: opens a frame · every pass draws · presents
 //!   ├ Device: adapter, device, queue, surface; notifies its listeners of losses
 //!   └ pass/: the passes of the scene, then those of the window; the list is `pass::all`
@@ -18,10 +19,12 @@ pub mod batch;
 mod between;
 pub mod body;
 pub mod camera;
+pub mod cast;
 pub mod connection;
 mod contact;
 pub mod control;
 pub mod device;
+pub mod draw_set;
 mod error;
 pub mod frustum;
 pub mod ghosts;
@@ -47,6 +50,7 @@ pub mod surface;
 mod surface_source;
 pub mod target;
 mod texture_memory;
+mod titles;
 pub mod uniform;
 mod worker;
 #[cfg(all(unix, not(target_vendor = "apple")))]
@@ -55,10 +59,11 @@ mod x11;
 pub use appearance::{AnyAppearance, Appearance, Appearances};
 pub use appearance_sender::AppearanceSender;
 pub use between::between;
+pub use cast::{PickedThing, PosedScene, ThroughCamera};
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,
-    IkLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton,
+    IkLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton, ThingAppearance,
 };
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};
 pub use error::GraphicsError;

@@ -4,6 +4,7 @@ use super::appearance::AnyAppearance;
 use super::error::GraphicsError;
 use super::surface::WindowSurface;
 use crate::camera::Camera;
+use crate::cast::{PickedThing, ThroughCamera};
 use crate::gizmo::RoleColors;
 use crate::pick::region::OwnedRegion;
 use crate::playback::PlaybackClock;
@@ -74,6 +75,10 @@ pub struct Look {
     pub hidden: Arc<HiddenBones>,
     /// Colors of handles and paths, linear RGB.
     pub handles: RoleColors,
+    /// The camera through which the scene of a script is seen.
+    pub through: ThroughCamera,
+    /// Whether cameras, lights, marks and paths of a script are drawn.
+    pub helpers: bool,
 }
 
 impl Default for Look {
@@ -98,6 +103,8 @@ impl Default for Look {
             accent: [0.95, 0.38, 0.06],
             hidden: Arc::default(),
             handles: RoleColors::default(),
+            through: ThroughCamera::Free,
+            helpers: false,
         }
     }
 }
@@ -187,15 +194,19 @@ pub enum GraphicsReply {
     },
     /// Reply to [`GraphicsMessage::Pick`].
     Picked {
-        /// The bone; `None` if there is none.
+        /// The bone of the model; `None` if there is none.
         bone: Option<BoneIndex>,
+        /// The thing of the scene of a script; `None` if there is none.
+        thing: Option<PickedThing>,
         /// Ticket of the request.
         ticket: u64,
     },
     /// Reply to [`GraphicsMessage::PickAll`] and [`GraphicsMessage::Catch`].
     PickedAll {
-        /// The bones, nearest first, or in the order of the skeleton.
+        /// The bones of the model, nearest first, or in the order of the skeleton.
         bones: Vec<BoneIndex>,
+        /// The things of the scene of a script, nearest first, or in the order of the cast.
+        things: Vec<PickedThing>,
         /// Ticket of the request.
         ticket: u64,
     },

@@ -54,17 +54,27 @@ impl PlaybackClock {
         }
     }
 
+    /// Paused at the start of the scene of a script, which lasts `length` seconds. The number of the take means nothing.
+    pub fn of_scene(length: f64, now: Instant) -> Self {
+        Self { take: Some(0), length: length as f32, ..Self::rest(now) }
+    }
+
     /// Time in the take at `now`, seconds; within `start ..= start + length` while playing.
     pub fn time_at(&self, now: Instant) -> f32 {
+        self.seconds_at(now) as f32
+    }
+
+    /// The same as [`Self::time_at`] with the precision of the clock, for scenes, whose times are exact.
+    pub fn seconds_at(&self, now: Instant) -> f64 {
         if !self.playing {
-            return self.anchor_time as f32;
+            return self.anchor_time;
         }
         let passed = now.saturating_duration_since(self.anchor).as_secs_f64() * f64::from(self.speed);
         let (start, length) = (f64::from(self.start), f64::from(self.length));
         // Also catches a length of NaN, in which nothing can move.
         #[allow(clippy::neg_cmp_op_on_partial_ord, reason = "the negation is how NaN is caught")]
         if !(length > 0.0) {
-            return self.start;
+            return start;
         }
         let inside = self.anchor_time - start + passed;
         let wrapped = match self.repeat {
@@ -77,7 +87,7 @@ impl PlaybackClock {
                 if twice > length { 2.0 * length - twice } else { twice }
             }
         };
-        (start + wrapped) as f32
+        start + wrapped
     }
 
     /// Returns whether the image changes by itself after `now`.

@@ -3,25 +3,31 @@
 //! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
 use super::appearance::Appearances;
-use super::contact::spots;
+use super::batch::DrawBatch;
+use super::cast::{PosedScene, made_model};
+use super::contact::add_spots;
 use super::control::{ControlFrame, SceneControls};
+use super::draw_set::DrawSet;
 use super::frustum::ViewFrustum;
 use super::message::{Look, Shading};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
-use super::uniform::{FrameUniform, SPOTS};
+use super::uniform::{FrameUniform, LIGHTS, LightUniform, SPOTS};
 use crate::camera::{Camera, CameraRay, Projection};
 use crate::playback::PlaybackClock;
 use dragonfly_anim::bounds::{Bounds, Sphere};
-use dragonfly_anim::data::BoneIndex;
-use dragonfly_document::{LoadedModel, View};
+use dragonfly_anim::data::{BoneIndex, ModelData};
+use dragonfly_document::{LoadedModel, SceneView, View};
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use std::sync::Arc;
 use std::time::Instant;
 
+/// Number of spots of the contact shadow of a model.
+const MODEL_SPOTS: usize = 16;
+
 /// The scene.
 pub struct Scene {
-    /// The camera.
+    /// The free camera, which shows the scene unless it is seen through one of its own.
     pub camera: Camera,
     /// The look of the viewport.
     pub look: Look,
@@ -34,6 +40,10 @@ pub struct Scene {
     /// The controls of the scene.
     pub controls: SceneControls,
     model: Option<PosedModel>,
+    /// The things of a script, which are shown in place of the model.
+    cast: Option<PosedScene>,
+    /// The camera of the frame prepared last.
+    seen: Camera,
     skin: Option<SkinPicker>,
     /// The view that is shown.
     shown: Option<View>,
@@ -53,6 +63,8 @@ impl Scene {
             appearances: Appearances::default(),
             controls: SceneControls::default(),
             model: None,
+            cast: None,
+            seen: Camera::default(),
             skin: None,
             shown: None,
             still: Vec::new(),
@@ -60,8 +72,11 @@ impl Scene {
         }
     }
 
-    /// Shows `view` from now on. If the model is the same, only the takes are replaced.
+    /// Shows `view` from now on. If the model is the same, only the takes are replaced. The scene of a script is shown in place of the
+    /// model, as long as it has a plan.
     pub fn show(&mut self, view: &View) {
+        let before = self.cast.take();
+        self.cast = view.scene.as_deref().and_then(|scene| PosedScene::new(scene, before));
         match &mut self.model {
             Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view, &self.still),
             _ => {
@@ -87,9 +102,47 @@ impl Scene {
         self.show(&View::opened(0, loaded));
     }
 
+    /// Shows a scene of a script as it is.
+    pub fn show_scene(&mut self, scene: &Arc<SceneView>) {
+        let nothing = Arc::new(made_model("scene", ModelData::default()));
+        self.show(&View { scene: Some(Arc::clone(scene)), ..View::opened(0, nothing) });
+    }
+
     /// The model in the pose prepared last.
     pub fn model(&self) -> Option<&PosedModel> {
         self.model.as_ref()
+    }
+
+    /// The things of a script at the time prepared last; `None` where a model is shown.
+    pub fn cast(&self) -> Option<&PosedScene> {
+        self.cast.as_ref()
+    }
+
+    pub(crate) fn cast_mut(&mut self) -> Option<&mut PosedScene> {
+        self.cast.as_mut()
+    }
+
+    /// The camera of the frame prepared last: the free one, or that of the scene through which the look asks to see.
+    pub fn seen(&self) -> &Camera {
+        &self.seen
+    }
+
+    /// Returns what is drawn: the model, or the models of the things of a script.
+    pub fn draw_sets(&self) -> impl Iterator<Item = &DrawSet> + Clone {
+        let model = self.model.as_ref().filter(|_| self.cast.is_none()).map(PosedModel::draws);
+        model.into_iter().chain(self.cast.iter().flat_map(PosedScene::draw_sets))
+    }
+
+    /// The draw calls of blended surfaces, farthest first.
+    pub(crate) fn blended_runs(&self) -> impl Iterator<Item = (&DrawSet, &[DrawBatch])> {
+        let model = self.model.as_ref().filter(|_| self.cast.is_none());
+        let of_model = model.map(|model| (model.draws(), model.batches().blended()));
+        of_model.into_iter().chain(self.cast.iter().flat_map(PosedScene::blended_runs))
+    }
+
+    /// Returns whether the scene changes by itself after `now`.
+    pub fn moves(&self, now: Instant) -> bool {
+        self.playback.moves(now) && (self.model.is_some() || self.cast.is_some())
     }
 
     /// The view that is shown.
@@ -116,19 +169,30 @@ impl Scene {
     /// Computes everything for a frame at `now`. Allocates nothing.
     pub fn prepare(&mut self, now: Instant) {
         let time = self.playback.time_at(now);
-        let eye = self.camera.eye();
-        let bounds = self.model.as_ref().map_or(Sphere::default(), |model| model.bounds().sphere);
-        if let Some(model) = &mut self.model {
-            model.pose(self.playback.take, time, !self.playback.moves(now));
-            model.sort(eye, self.camera.back());
-            model.place_bones(&self.look);
-            let (camera, look, appearances) = (&self.camera, &self.look, &self.appearances);
-            self.controls.present(&ControlFrame { model, camera, look, appearances });
+        if let Some(cast) = &mut self.cast {
+            cast.pose(self.playback.seconds_at(now));
         }
-        self.uniform = self.frame_uniform(&bounds);
-        let frustum = self.frustum();
+        let size = self.size();
+        let through =
+            self.cast.as_ref().and_then(|cast| cast.camera(&self.look.through, size.x / size.y.max(1.0)));
+        self.seen = through.unwrap_or(self.camera);
+        let (eye, back) = (self.seen.eye(), self.seen.back());
         if let Some(model) = &mut self.model {
-            model.batch(&frustum);
+            if self.cast.is_none() {
+                model.pose(self.playback.take, time, !self.playback.moves(now));
+                model.sort(eye, back);
+                model.place_bones(&self.look);
+            }
+            let (camera, look, appearances) = (&self.seen, &self.look, &self.appearances);
+            let cast = self.cast.as_ref();
+            self.controls.present(&ControlFrame { model, cast, camera, look, appearances });
+        }
+        self.uniform = self.frame_uniform();
+        let frustum = self.frustum();
+        match (&mut self.cast, &mut self.model) {
+            (Some(cast), _) => cast.batch(eye, back, &frustum),
+            (None, Some(model)) => model.batch(&frustum),
+            (None, None) => {}
         }
     }
 
@@ -140,7 +204,7 @@ impl Scene {
     /// Transforms scene space to clip space for the present camera and viewport.
     pub fn clip_from_world(&self, bounds: &Sphere) -> Mat4 {
         let size = self.size();
-        self.camera.clip_from_view(size.x / size.y.max(1.0), bounds) * self.camera.view_from_world()
+        self.seen.clip_from_view(size.x / size.y.max(1.0), bounds) * self.seen.view_from_world()
     }
 
     /// The line of sight through a pixel of the window, and that pixel within the viewport; `None` outside of it.
@@ -149,7 +213,7 @@ impl Scene {
         let size = self.size();
         let pixel = Vec2::from(position) - Vec2::new(x as f32, y as f32);
         let inside = pixel.cmpge(Vec2::ZERO).all() && pixel.cmplt(size).all();
-        inside.then(|| (self.camera.ray(pixel, size), pixel))
+        inside.then(|| (self.seen.ray(pixel, size), pixel))
     }
 
     /// Returns the model and the picker of its skin, which is created when it is first needed; `None` without a model.
@@ -158,8 +222,9 @@ impl Scene {
         Some((model, self.skin.get_or_insert_with(|| SkinPicker::new(model))))
     }
 
-    fn frame_uniform(&self, bounds: &Sphere) -> FrameUniform {
-        let (camera, look) = (&self.camera, &self.look);
+    fn frame_uniform(&self) -> FrameUniform {
+        let (camera, look) = (&self.seen, &self.look);
+        let bounds = self.bounds().sphere;
         let size = self.size().max(Vec2::ONE);
         let eye = match camera.projection {
             Projection::Perspective => camera.eye().extend(1.0),
@@ -177,11 +242,13 @@ impl Scene {
         let (spacing, appeared) = grid_spacing(camera.distance);
         // A high camera sees far; the ground must not end below it.
         let radius = camera.distance.max(camera.eye().y.abs()) * 5.0;
-        let casts = self.model.as_ref().filter(|_| look.contact_shadow && look.surface);
-        let contact = casts
-            .map_or([Vec4::ZERO; SPOTS], |model| spots(model.part_boxes(), model.palettes(), bounds.radius));
+        let (contact, spot_count) = self.contact(bounds.radius);
+        let mut lights = [LightUniform::default(); LIGHTS];
+        let light_count = self.cast.as_ref().map_or(0, |cast| cast.write_lights(&mut lights));
+        // A sun fills the shadows less than the lamps of a studio do.
+        let ambient = if light_count > 0 { 0.5 } else { 1.0 };
         FrameUniform {
-            clip_from_world: self.clip_from_world(bounds),
+            clip_from_world: self.clip_from_world(&bounds),
             view_from_world: camera.view_from_world(),
             eye,
             size: Vec4::new(size.x, size.y, 1.0 / size.x, 1.0 / size.y),
@@ -193,11 +260,31 @@ impl Scene {
             bone_color: Vec3::from(look.bone_color).extend(1.0),
             accent: Vec3::from(look.accent).extend(1.0),
             contact,
+            counts: Vec4::new(light_count as f32, ambient, spot_count as f32, 0.0),
+            lights,
         }
     }
 
-    /// Bounds of the model at rest; empty, at the origin, without a model.
+    /// Returns the spots of the contact shadow, and how many may be used.
+    fn contact(&self, radius: f32) -> ([Vec4; SPOTS], usize) {
+        let mut spots = [Vec4::ZERO; SPOTS];
+        if !(self.look.contact_shadow && self.look.surface) {
+            return (spots, 0);
+        }
+        if let Some(cast) = &self.cast {
+            return (*cast.spots(), SPOTS);
+        }
+        if let Some(model) = &self.model {
+            add_spots(&mut spots[..MODEL_SPOTS], model.part_boxes(), model.palettes(), radius);
+        }
+        (spots, MODEL_SPOTS)
+    }
+
+    /// Bounds of the model at rest, or of the things of a script at the time prepared last; empty, at the origin, without either.
     pub fn bounds(&self) -> Bounds {
+        if let Some(cast) = &self.cast {
+            return *cast.bounds();
+        }
         self.model.as_ref().map_or_else(Bounds::default, |model| *model.bounds())
     }
 }

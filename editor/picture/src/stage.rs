@@ -169,7 +169,7 @@ impl RenderStage {
 
     /// Returns whether the scene changes by itself.
     pub fn moves(&self, now: Instant) -> bool {
-        self.mode == DrawMode::All && self.scene.playback.moves(now) && self.scene.model().is_some()
+        self.mode == DrawMode::All && self.scene.moves(now)
     }
 
     /// Sets whether all images of a model are loaded before its first frame, and not some with every frame.

@@ -4,7 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
 
 /// Number of spots of the contact shadow. WGSL twin: `SPOTS` in `shaders/common/frame.wgsl`.
-pub const SPOTS: usize = 16;
+pub const SPOTS: usize = 64;
+
+/// Number of lights of a scene. WGSL twin: `LIGHTS` in `shaders/common/frame.wgsl`.
+pub const LIGHTS: usize = 8;
 
 /// Uniform of a frame. WGSL twin: `Frame` in `shaders/common/frame.wgsl`.
 #[repr(C)]
@@ -34,6 +37,23 @@ pub struct FrameUniform {
     pub accent: Vec4,
     /// Spots of the contact shadow: center x and z, radius, strength.
     pub contact: [Vec4; SPOTS],
+    /// Number of lights of the scene, which replace those of the studio if there are any; share of the studio's ambient light; number of
+    /// spots.
+    pub counts: Vec4,
+    /// Lights of the scene.
+    pub lights: [LightUniform; LIGHTS],
+}
+
+/// A light of a scene. WGSL twin: `SceneLight` in `shaders/common/frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct LightUniform {
+    /// Meters; w: 0 for a sun, 1 for a point light, 2 for a spot light.
+    pub position: Vec4,
+    /// Direction in which it shines, unit length.
+    pub direction: Vec4,
+    /// Linear RGB that a white matte surface reflects where it faces the light, for a point or spot light at a distance of 1.
+    pub color: Vec4,
 }
 
 /// An affine matrix by rows, three quarters the size of a full matrix. WGSL twin: `Affine` in
@@ -47,6 +67,14 @@ pub struct Affine {
     pub y: Vec4,
     /// Third row.
     pub z: Vec4,
+}
+
+impl Affine {
+    /// Returns `self * inner`: `inner` first.
+    pub fn after(&self, inner: &Self) -> Self {
+        let row = |row: Vec4| row.x * inner.x + row.y * inner.y + row.z * inner.z + row * Vec4::W;
+        Self { x: row(self.x), y: row(self.y), z: row(self.z) }
+    }
 }
 
 impl From<Mat4> for Affine {

@@ -286,20 +286,23 @@ impl Graphics {
             GraphicsMessage::Resized(size) => stage.resize(size),
             GraphicsMessage::Pick { position, ticket } => {
                 stage.scene.prepare(thread.now());
+                let thing = stage.scene.pick_things(position).into_iter().next();
                 let bone = pick(&stage.scene, position);
-                self.reply(GraphicsReply::Picked { bone, ticket });
+                self.reply(GraphicsReply::Picked { bone, thing, ticket });
             }
             GraphicsMessage::PickAll { position, ticket } => {
                 stage.scene.prepare(thread.now());
+                let things = stage.scene.pick_things(position);
                 let bones = stage.scene.pick_all(position);
-                self.reply(GraphicsReply::PickedAll { bones, ticket });
+                self.reply(GraphicsReply::PickedAll { bones, things, ticket });
             }
             GraphicsMessage::Catch { region, ticket } => {
                 stage.scene.prepare(thread.now());
                 let hidden = Arc::clone(&stage.scene.look.hidden);
                 let mut bones = Vec::new();
                 pick_region(&stage.scene, &region.region(), &hidden, &mut bones);
-                self.reply(GraphicsReply::PickedAll { bones, ticket });
+                let things = stage.scene.things_in(&region.region());
+                self.reply(GraphicsReply::PickedAll { bones, things, ticket });
             }
             GraphicsMessage::Appearance(appearance) => {
                 stage.scene.appearances.receive(appearance);
@@ -425,7 +428,7 @@ impl Worker for Present {
         let now = thread.now();
         let warnings = stage.take_warnings();
         if !warnings.is_empty() {
-            let title = stage.scene.model().map(|model| model.loaded().title.clone()).unwrap_or_default();
+            let title = stage.scene.view().map(|view| view.file.title.clone()).unwrap_or_default();
             let _ = self.replies.send(GraphicsReply::Images { title, warnings });
         }
         if stage.wants_frame(now) {

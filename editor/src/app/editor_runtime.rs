@@ -247,13 +247,13 @@ impl BaseRuntime for EditorRuntime {
                 interface.set_max_texture_side(max_texture_side);
                 interface.state.window_mut().set_device(DeviceStatus::Ready { adapter });
             }
-            GraphicsReply::Picked { bone, ticket } => {
+            GraphicsReply::Picked { bone, ticket, .. } => {
                 // A pointer that stays on its bone changes nothing, so nothing is drawn.
                 if running.hover.answered(ticket) && !interface.state.set_pointed(bone) {
                     return;
                 }
             }
-            GraphicsReply::PickedAll { bones, ticket } => {
+            GraphicsReply::PickedAll { bones, ticket, .. } => {
                 // An answer to an older question is not about the newest click.
                 match running.asked.take_if(|asked| asked.0 == ticket) {
                     Some((_, Asked::Click(at, choice))) => interface.state.picked(at, &bones, choice),

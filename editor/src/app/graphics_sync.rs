@@ -9,7 +9,7 @@ use dragonfly_picture::gizmo::RoleColors;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
     AppearanceSender, ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook,
-    GraphicsHandle, IkAppearance, Look, PathAppearance, ReferenceAppearance,
+    GraphicsHandle, IkAppearance, Look, PathAppearance, ReferenceAppearance, ThroughCamera,
 };
 use std::sync::Arc;
 
@@ -144,5 +144,7 @@ fn look(
         accent: linear(theme.accent),
         hidden,
         handles: RoleColors::new(|role| linear(theme.role(role))),
+        through: ThroughCamera::Free,
+        helpers: false,
     }
 }

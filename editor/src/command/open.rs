@@ -1,6 +1,6 @@
 //! `dragonfly [FILE…]`: opens the editor; without a display, renders an image instead.
 
-use super::choice::{Size, load, source_as};
+use super::choice::{load, source_as};
 use super::import_options::ImportArguments;
 use super::{Failure, output, quiet, render, tell};
 use crate::app::{self, AppError, Options};
@@ -89,8 +89,8 @@ impl OpenArguments {
         let file = self.files.first().unwrap_or(&built_in);
         let source = source_as(file, &self.import);
         let loaded = load(&source)?;
-        let view =
-            render::RenderView { size: Size { width: 1280, height: 720 }, ..render::RenderView::default() };
+        let view = render::RenderView::default();
+        let [width, height] = render::USUAL_SIZE;
         let (title, take) = (loaded.title.clone(), loaded.model.animation.takes.first().cloned());
         // Most takes show a characteristic pose at a third of their length.
         let time = take.as_ref().map_or(0.0, |take| take.start + take.length / 3.0);
@@ -100,7 +100,7 @@ impl OpenArguments {
         output::print(|out| {
             writeln!(out, "{}", path.display())?;
             let take = take.map_or_else(String::new, |take| format!(", take {}, {time:.2} s", take.name));
-            writeln!(out, "  an image of {title}{take}, {} × {} pixels", view.size.width, view.size.height)?;
+            writeln!(out, "  an image of {title}{take}, {width} × {height} pixels")?;
             writeln!(out, "More without a display:")?;
             writeln!(out, "  dragonfly render --help   other files, takes, times, cameras and sizes")?;
             writeln!(out, "  dragonfly info, pose      contents of a file, exact numbers")?;

@@ -1,7 +1,8 @@
-//! `dragonfly render FILE -o out.png`: renders one image without a window.
+//! `dragonfly render FILE -o out.png`: renders images without a window.
 
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
 use super::run_command::RunCommand;
+use super::scene::{self, FrameRange, ShotChoice};
 use super::{Failure, output, quiet, tell};
 use dragonfly_document::LoadedModel;
 use dragonfly_picture::{GraphicsError, PictureSettings, Studio};
@@ -9,12 +10,14 @@ use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Render an image of a model, without a window or a display
+/// Render an image of a model or a scene, without a window or a display
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
 Examples:\n  dragonfly render demo: -o dragonfly.png\n  \
 dragonfly render Fox.glb --take Run --time 0.35 --yaw 60 --pitch 10 --size 1920x1080 -o run.png\n  \
-dragonfly render Fox.glb --skeleton --background 00000000 -o - | display")]
+dragonfly render Fox.glb --skeleton --background 00000000 -o - | display\n  \
+dragonfly render duel.xml --time 2.5 --camera close -o duel.png\n  \
+dragonfly render duel.xml --frames 0..47 -o frames/duel.png")]
 pub(super) struct RenderArguments {
     #[command(flatten)]
     file: File,
@@ -23,6 +26,12 @@ pub(super) struct RenderArguments {
     /// Time in seconds, clamped to the take [default: its start]
     #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
     time: Option<f32>,
+    /// Frames of a scene, the first and the last, in place of a time; `-o out.png` writes out-0000.png and so on
+    #[arg(long, value_name = "A..B", conflicts_with = "time")]
+    frames: Option<FrameRange>,
+    /// Camera of a scene: its id, or `shot` for the one that is shot, or `free` for --yaw and --pitch [default: shot]
+    #[arg(long, value_name = "ID")]
+    camera: Option<ShotChoice>,
     /// PNG file to write; `-` is standard output
     #[arg(short, long, value_name = "out.png")]
     output: PathBuf,
@@ -33,9 +42,9 @@ pub(super) struct RenderArguments {
 /// Camera, size and background of the image.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct RenderView {
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720")]
-    pub size: Size,
+    /// Width and height in pixels [default: 1280x720, or the size in the script of a scene]
+    #[arg(long, value_name = "WxH")]
+    pub size: Option<Size>,
     /// Camera angle around the model, degrees; 0 is its front, 90 its left side
     #[arg(long, value_name = "DEG", value_parser = finite, default_value = "35", allow_negative_numbers = true)]
     pub yaw: f32,
@@ -52,19 +61,50 @@ pub(super) struct RenderView {
 
 impl Default for RenderView {
     fn default() -> Self {
-        Self {
-            size: Size { width: 1280, height: 720 },
-            yaw: 35.0,
-            pitch: 15.0,
-            skeleton: false,
-            background: None,
+        Self { size: None, yaw: 35.0, pitch: 15.0, skeleton: false, background: None }
+    }
+}
+
+impl RenderView {
+    /// Returns width and height in pixels, `otherwise` where the user chose none.
+    pub(super) fn size_or(&self, otherwise: [u32; 2]) -> [u32; 2] {
+        self.size.map_or(otherwise, |size| [size.width, size.height])
+    }
+
+    /// Returns the settings of an image.
+    pub(super) fn settings(&self, otherwise: [u32; 2]) -> PictureSettings {
+        PictureSettings {
+            size: self.size_or(otherwise),
+            yaw: self.yaw.to_radians(),
+            pitch: self.pitch.to_radians(),
+            background: self.background.map(|color| color.0),
+            skeleton: self.skeleton,
+            // The ground grid would cover half of a model on a transparent background.
+            grid: self.background.is_none(),
+            ..PictureSettings::default()
         }
     }
 }
 
+/// Size of an image where the user chose none, pixels.
+pub(super) const USUAL_SIZE: [u32; 2] = [1280, 720];
+
 impl RunCommand for RenderArguments {
     fn run(self) -> Result<(), Failure> {
         quiet::about_wayland();
+        if let Some(script) = self.file.script() {
+            let order = scene::RenderOrder {
+                time: self.time.unwrap_or(0.0),
+                frames: self.frames,
+                camera: self.camera.unwrap_or_default(),
+                output: &self.output,
+                view: &self.view,
+            };
+            return scene::render(script, &order);
+        }
+        if self.frames.is_some() || self.camera.is_some() {
+            return Err(Failure::input("--frames, --camera", "FILE has to be the script of a scene (.xml)"));
+        }
         let loaded = self.file.load()?;
         tell_warnings(&loaded.title, &loaded.warnings);
         let take = self.take.index(&loaded.title, &loaded.model)?;
@@ -85,26 +125,26 @@ pub(super) fn draw(
     time: f32,
     view: &RenderView,
 ) -> Result<Vec<u8>, Failure> {
-    let settings = PictureSettings {
-        size: [view.size.width, view.size.height],
-        take,
-        time,
-        yaw: view.yaw.to_radians(),
-        pitch: view.pitch.to_radians(),
-        background: view.background.map(|color| color.0),
-        skeleton: view.skeleton,
-        // The ground grid would cover half of a model on a transparent background.
-        grid: view.background.is_none(),
-        ..PictureSettings::default()
-    };
+    let settings = PictureSettings { take, time, ..view.settings(USUAL_SIZE) };
+    let mut studio = studio()?;
+    let loaded = Arc::new(loaded);
+    let picture = studio.render(&loaded, &settings).map_err(refusal)?;
+    tell_warnings(&loaded.title, &studio.take_warnings());
+    png(&picture)
+}
+
+/// Creates a studio. Tells the user if it cannot draw smooth edges.
+pub(super) fn studio() -> Result<Studio, Failure> {
     let mut studio = Studio::new().map_err(refusal)?;
     if !studio.is_smooth() {
         let adapter = studio.stage().device().adapter_name();
         tell(format_args!("{adapter} has no multisampling: edges are not smooth"));
     }
-    let loaded = Arc::new(loaded);
-    let picture = studio.render(&loaded, &settings).map_err(refusal)?;
-    tell_warnings(&loaded.title, &studio.take_warnings());
+    Ok(studio)
+}
+
+/// Returns the bytes of a PNG file.
+pub(super) fn png(picture: &image::RgbaImage) -> Result<Vec<u8>, Failure> {
     let mut png = Vec::new();
     picture
         .write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png)
@@ -112,7 +152,7 @@ pub(super) fn draw(
     Ok(png)
 }
 
-fn tell_warnings(title: &str, warnings: &[String]) {
+pub(super) fn tell_warnings(title: &str, warnings: &[String]) {
     for warning in warnings {
         tell(format_args!("{title}: warning: {}", super::choice::plain(warning)));
     }

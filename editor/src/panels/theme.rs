@@ -178,6 +178,7 @@ impl Theme {
             GizmoRole::Hover | GizmoRole::Active => by_theme([255, 226, 138], [214, 132, 0]),
             GizmoRole::Past => by_theme([236, 138, 112], [186, 78, 52]),
             GizmoRole::Future => by_theme([104, 196, 204], [20, 120, 134]),
+            GizmoRole::Selected => self.accent,
         }
     }
 

@@ -185,7 +185,8 @@ fn renaming_keeps_the_spelling_of_what_follows_the_name() {
     let text = "<script version=\"1\"><cast><role id='anna' model='a.glb'/><role id='ben' model='b.glb'/></cast>\n\
         <look who='ben' at='anna.a &gt; b&#x20;c' /><look who='&#97;nna' at='ben'/></script>";
     let new = changed(text, |script| rename(script.tree(), with_id(script, "anna"), "eve"));
-    let expected = text.replace("'anna'", "'eve'").replace("'anna.a", "'eve.a").replace("'&#97;nna'", "'eve'");
+    let expected =
+        text.replace("'anna'", "'eve'").replace("'anna.a", "'eve.a").replace("'&#97;nna'", "'eve'");
     assert_eq!(new, expected);
 }
 

@@ -23,8 +23,6 @@ use std::sync::Arc;
 pub(super) struct StageBinder<'a> {
     pub(super) script: &'a StageScript,
     pub(super) things: Vec<PlannedThing>,
-    /// The path of each thing that is one.
-    pub(super) paths: Vec<Option<StagePath>>,
 }
 
 /// Returns a number of an element, or its default.
@@ -34,10 +32,10 @@ pub(super) fn number(element: &ScriptElement, name: &str) -> Option<f64> {
 
 impl<'a> StageBinder<'a> {
     pub(super) fn new(script: &'a StageScript, assets: &StageAssets, errors: &mut ErrorList) -> Self {
-        let mut binder = Self { script, things: Vec::new(), paths: Vec::new() };
+        let mut binder = Self { script, things: Vec::new() };
         for element in script.things() {
             let model = binder.model(element, assets, errors);
-            let path = (element.row.name == "path").then(|| path(element, assets, errors));
+            let path = (element.row.name == "path").then(|| path(element, assets, errors).map(Arc::new));
             let properties =
                 PROPERTIES.iter().filter(|row| row.thing == element.row.name).map(|row| PropertyLane {
                     name: row.name,
@@ -50,6 +48,7 @@ impl<'a> StageBinder<'a> {
                 scale: number(element, "scale").unwrap_or(1.0),
                 is_missing: model.is_none() && element.value("model").is_some(),
                 model,
+                path: path.flatten(),
                 places: PlaceLane { base: base(element), cues: Vec::new() },
                 poses: vec![super::poses::PoseLane::default()],
                 looks: Vec::new(),
@@ -59,7 +58,6 @@ impl<'a> StageBinder<'a> {
                 aim: None,
                 focus: FocusTarget::Everything,
             });
-            binder.paths.push(path.flatten());
         }
         for (index, element) in script.things().enumerate() {
             binder.things[index].aim = binder.spot(element, "look", errors);

@@ -25,14 +25,31 @@ struct CameraView {
 pub(super) fn camera(plan: &StagePlan, time: StageTime, things: &[ThingState]) -> Option<StageCamera> {
     let begun = plan.shots.partition_point(|shot| shot.begin <= time);
     let (thing, view) = shot(plan, begun, time, things, MOST_BLENDS)?;
-    Some(StageCamera {
-        thing,
-        position: view.position.as_vec3(),
-        rotation: view.rotation.as_quat().normalize(),
-        lens: view.lens as f32,
-        focus: view.focus.map(|focus| focus as f32),
-        aperture: view.aperture as f32,
-    })
+    Some(view.rounded(thing))
+}
+
+/// Returns what a camera sees, whatever is shot; `None` for things that are no camera.
+pub(super) fn camera_of(
+    plan: &StagePlan,
+    thing: usize,
+    time: StageTime,
+    things: &[ThingState],
+) -> Option<StageCamera> {
+    let is_camera = plan.things.get(thing)?.kind == "camera" && thing < things.len();
+    is_camera.then(|| view(plan, thing, time, things).rounded(thing))
+}
+
+impl CameraView {
+    fn rounded(&self, thing: usize) -> StageCamera {
+        StageCamera {
+            thing,
+            position: self.position.as_vec3(),
+            rotation: self.rotation.as_quat().normalize(),
+            lens: self.lens as f32,
+            focus: self.focus.map(|focus| focus as f32),
+            aperture: self.aperture as f32,
+        }
+    }
 }
 
 /// Returns the camera after the first `begun` shots.

@@ -25,7 +25,7 @@ pub use placement::Placement;
 pub use thing::PlannedThing;
 
 use super::assets::StageAssets;
-use super::scene::{EffectState, LightState, StageScene, StageScratch, ThingPose, ThingState};
+use super::scene::{EffectState, LightState, StageCamera, StageScene, StageScratch, ThingPose, ThingState};
 use super::schedule::Schedule;
 use super::script::{ScriptError, StageScript};
 use super::time::{StageRate, StageTime};
@@ -162,6 +162,11 @@ impl StagePlan {
         self.schedule.length()
     }
 
+    /// Returns the frame rate of the script.
+    pub fn rate(&self) -> StageRate {
+        self.rate
+    }
+
     /// Returns the things of the cast, in the order of the script.
     pub fn things(&self) -> &[PlannedThing] {
         &self.things
@@ -185,6 +190,13 @@ impl StagePlan {
     /// Returns the place of a thing at `time` by its motions alone, as if nothing held it; `None` past the end.
     pub fn placement(&self, thing: usize, time: StageTime) -> Option<Placement> {
         self.things.get(thing).map(|thing| thing.places.at(time))
+    }
+
+    /// Returns what a camera of the cast sees in `scene`, which [`Self::scene_at`] wrote, whatever is shot; `None` for things that are no
+    /// camera and past the end.
+    pub fn camera_of(&self, thing: usize, scene: &StageScene) -> Option<StageCamera> {
+        let same_cast = scene.things.len() == self.things.len();
+        same_cast.then(|| cameras::camera_of(self, thing, scene.time, &scene.things)).flatten()
     }
 
     /// Allocates a scene for this plan.

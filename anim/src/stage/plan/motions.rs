@@ -137,7 +137,7 @@ impl MotionPlanner<'_, '_> {
         let element = self.binder.script.element(action);
         if let Some(path) = element.value("path") {
             let thing = self.binder.script.thing_called(path)?;
-            return self.binder.paths.get(thing)?.clone();
+            return self.binder.things.get(thing)?.path.as_deref().cloned();
         }
         let target = self.still(self.bound[action].spot?, position);
         let way = target - start;

@@ -8,6 +8,7 @@ use super::poses::PoseLane;
 use super::properties::PropertyLane;
 use super::spot::StageSpot;
 use crate::stage::model::StageModel;
+use crate::stage::path::StagePath;
 use std::sync::Arc;
 
 /// What is in focus.
@@ -34,6 +35,8 @@ pub struct PlannedThing {
     pub model: Option<Arc<StageModel>>,
     /// Whether it has a model that is missing: what is known of its takes and bones is guessed.
     pub is_missing: bool,
+    /// Its way; `None` for things that are no path.
+    pub path: Option<Arc<StagePath>>,
     pub(super) places: PlaceLane,
     /// The first lane is that of the whole body.
     pub(super) poses: Vec<PoseLane>,

@@ -2,6 +2,7 @@
 
 use crate::appearance::Appearances;
 use crate::camera::Camera;
+use crate::cast::PosedScene;
 use crate::gizmo::GizmoShape;
 use crate::message::Look;
 use crate::posed::PosedModel;
@@ -10,6 +11,8 @@ use crate::posed::PosedModel;
 pub struct ControlFrame<'a> {
     /// The model in the pose of this frame.
     pub model: &'a PosedModel,
+    /// The things of a script at the time of this frame; `None` where a model is shown.
+    pub cast: Option<&'a PosedScene>,
     /// The camera.
     pub camera: &'a Camera,
     /// The look of the viewport, with the selection.

@@ -4,6 +4,7 @@
 //! A new control is a file here with its component, and a line in the list of `all` below. Its data, if it has any, is an
 //! [`Appearance`](crate::Appearance) declared in its file, which the main thread sets.
 
+mod cast;
 mod compared;
 mod component;
 mod ghosts;
@@ -11,6 +12,7 @@ mod gizmo;
 mod ik;
 mod path;
 
+pub use cast::ThingAppearance;
 pub use compared::{ComparedAppearance, OtherSkeleton, SecondSkeleton};
 pub use component::{ControlFrame, GraphicComponent};
 pub use ghosts::GhostAppearance;
@@ -29,6 +31,7 @@ pub struct SceneControls {
 /// Creates all components. Later ones are drawn over earlier ones.
 fn all() -> Vec<Box<dyn GraphicComponent>> {
     vec![
+        Box::<cast::CastGraphic>::default(),
         Box::<ghosts::GhostsGraphic>::default(),
         Box::<compared::ComparedGraphic>::default(),
         Box::<path::PathGraphic>::default(),

@@ -27,14 +27,25 @@ pub enum GizmoRole {
     Past = 6,
     /// Times after the present one.
     Future = 7,
+    /// Selected things, in the accent color of the program.
+    Selected = 8,
 }
 
 impl GizmoRole {
     /// Number of roles.
-    pub const COUNT: usize = 8;
+    pub const COUNT: usize = 9;
     /// All roles, in the order of their numbers.
-    pub const ALL: [Self; Self::COUNT] =
-        [Self::X, Self::Y, Self::Z, Self::View, Self::Hover, Self::Active, Self::Past, Self::Future];
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::X,
+        Self::Y,
+        Self::Z,
+        Self::View,
+        Self::Hover,
+        Self::Active,
+        Self::Past,
+        Self::Future,
+        Self::Selected,
+    ];
 
     fn of(axis: GizmoAxis) -> Self {
         [Self::X, Self::Y, Self::Z][axis as usize]
@@ -68,6 +79,7 @@ impl Default for RoleColors {
             GizmoRole::Hover | GizmoRole::Active => [1.0, 0.86, 0.35],
             GizmoRole::Past => [0.85, 0.25, 0.16],
             GizmoRole::Future => [0.12, 0.55, 0.60],
+            GizmoRole::Selected => [0.95, 0.38, 0.06],
         })
     }
 }

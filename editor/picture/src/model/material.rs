@@ -10,19 +10,20 @@ use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use wgpu::util::DeviceExt;
 
-/// Bind groups 2 of the model's shader, one per material; the last is for surfaces without material.
+/// Device resources that the materials of all models share.
 pub(super) struct GpuMaterials {
     /// Layout of the bind groups.
     pub(super) layout: wgpu::BindGroupLayout,
-    /// Bind groups created by the last [`Self::bind`].
-    groups: Vec<wgpu::BindGroup>,
 }
+
+/// Bind groups 2 of the shader of models, one per material; the last is for surfaces without material.
+pub(super) struct MaterialGroups(Vec<wgpu::BindGroup>);
 
 /// Texture and sampler of a texture use.
 type Bound = (wgpu::TextureView, wgpu::Sampler);
 
 impl GpuMaterials {
-    /// Starts without materials.
+    /// Creates the layout.
     pub(super) fn new(gpu: &Gpu) -> Self {
         let fragment = wgpu::ShaderStages::FRAGMENT;
         let entry =
@@ -45,17 +46,18 @@ impl GpuMaterials {
             label: Some("material"),
             entries: &entries,
         });
-        Self { layout, groups: Vec::new() }
+        Self { layout }
     }
 
-    /// Drops the bind groups, and with them the textures that nothing else keeps.
-    pub(super) fn forget(&mut self) {
-        self.groups = Vec::new();
-    }
-
-    /// Creates the bind groups of the materials of `loaded` with those of its `images` that are on the device.
-    pub(super) fn bind(&mut self, gpu: &Gpu, loaded: &LoadedModel, images: &ModelImages) {
-        let Some(white) = images.white() else { return };
+    /// Creates the bind groups of the materials of `loaded` with those of its `images` that are on the device; `None` only
+    /// for a lost device.
+    pub(super) fn bind(
+        &self,
+        gpu: &Gpu,
+        loaded: &LoadedModel,
+        images: &ModelImages,
+    ) -> Option<MaterialGroups> {
+        let white = images.white()?;
         let mut samplers = HashMap::new();
         let without = Material {
             metallic: dragonfly_anim::data::Metallic { metallic: 0.0, roughness: 0.8 },
@@ -74,7 +76,7 @@ impl GpuMaterials {
             let uniform = uniform(material, bound.each_ref().map(|(_, there)| *there));
             groups.push(self.group(gpu, &uniform, &bound.map(|(bound, _)| bound)));
         }
-        self.groups = groups;
+        Some(MaterialGroups(groups))
     }
 
     /// Creates the bind group of a material.
@@ -97,12 +99,14 @@ impl GpuMaterials {
             entries: &entries,
         })
     }
+}
 
+impl MaterialGroups {
     /// Returns the bind group of material number `index`; that of no material for `None` and for an index out of
     /// range.
     pub(super) fn get(&self, index: Option<u32>) -> Option<&wgpu::BindGroup> {
-        let last = self.groups.len().checked_sub(1)?;
-        self.groups.get(index.map_or(last, |index| (index as usize).min(last)))
+        let last = self.0.len().checked_sub(1)?;
+        self.0.get(index.map_or(last, |index| (index as usize).min(last)))
     }
 }
 

@@ -1,5 +1,6 @@
-//! A model on the device. Several passes share it: solid surfaces are drawn before the ground, blended ones after it.
+//! Models on the device. Several passes share them: solid surfaces are drawn before the ground, blended ones after it.
 
+mod content;
 mod geometry;
 mod ghost;
 mod groups;
@@ -12,32 +13,29 @@ mod texture;
 
 use super::batch::DrawBatch;
 use super::device::DeviceListener;
+use super::draw_set::{DrawItem, DrawSet};
 use super::ghosts::GhostSkins;
 use super::gpu::Gpu;
-use super::posed::{DrawItem, PosedModel};
-use super::uniform::{Affine, DrawInstance};
-use dragonfly_anim::data::Primitive;
+use super::scene::Scene;
+use content::ModelContent;
 use dragonfly_document::LoadedModel;
-use geometry::GpuGeometry;
-use groups::DrawGroups;
-use images::ModelImages;
 use material::GpuMaterials;
 use pipeline::{Cull, ModelPipelines, PipelineKind};
 use recorder::{DrawCounts, DrawRecorder};
 use std::cell::Cell;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use texture::TextureMaker;
 
-/// The model of the scene on the device.
+/// The models of the scene on the device: the one that is shown, or those of all things of a script.
 #[derive(Default)]
 pub struct GpuModel {
-    /// Kept for loading the model again on another device.
-    loaded: Option<Arc<LoadedModel>>,
     resources: Option<ModelResources>,
     /// Whether all images are uploaded before the first frame, and not some with every frame.
     loads_at_once: bool,
-    /// Warnings about the images of this model.
+    /// The models that are shown.
+    shown: Vec<Arc<LoadedModel>>,
+    /// Warnings about the images of these models.
     warnings: BTreeSet<String>,
     /// Those of them that [`Self::take_warnings`] has not returned yet.
     new_warnings: Vec<String>,
@@ -50,21 +48,9 @@ struct ModelResources {
     pipelines: ModelPipelines,
     maker: TextureMaker,
     materials: GpuMaterials,
-    content: Option<ModelContent>,
+    /// Those of each model that is shown.
+    contents: Vec<ModelContent>,
     ghosts: ghost::Ghosts,
-}
-
-/// Device resources of this model.
-struct ModelContent {
-    loaded: Arc<LoadedModel>,
-    images: ModelImages,
-    palettes: wgpu::Buffer,
-    weights: wgpu::Buffer,
-    /// The instances of all draw calls of a frame.
-    instances: wgpu::Buffer,
-    /// Geometry by mesh and primitive.
-    geometries: HashMap<(u32, u32), GpuGeometry>,
-    groups: DrawGroups,
 }
 
 /// Number of pixels that are decoded in one frame: a large image, or many small ones.
@@ -79,39 +65,35 @@ impl DeviceListener for GpuModel {
         let materials = GpuMaterials::new(gpu);
         let pipelines = ModelPipelines::new(gpu, &materials.layout);
         let maker = TextureMaker::new(gpu);
-        self.resources =
-            Some(ModelResources { pipelines, maker, materials, content: None, ghosts: Default::default() });
+        let (contents, ghosts) = (Vec::new(), ghost::Ghosts::default());
+        self.resources = Some(ModelResources { pipelines, maker, materials, contents, ghosts });
     }
 }
 
 impl GpuModel {
-    /// Writes this frame's pose to the device; a new model is loaded first.
-    pub fn prepare(&mut self, gpu: &Gpu, posed: Option<&PosedModel>) {
+    /// Writes this frame's poses to the device; models that are new are loaded first.
+    pub fn prepare(&mut self, gpu: &Gpu, scene: &Scene) {
         self.counts.set(DrawCounts::default());
-        let loaded = posed.map(|posed| Arc::clone(posed.loaded()));
-        if self.loaded.as_ref().map(Arc::as_ptr) != loaded.as_ref().map(Arc::as_ptr) {
-            self.warnings.clear();
-        }
-        self.loaded = loaded;
-        let (Some(resources), Some(posed)) = (&mut self.resources, posed) else { return };
-        let known =
-            resources.content.as_ref().is_some_and(|content| Arc::ptr_eq(&content.loaded, posed.loaded()));
+        self.keep_shown(scene);
+        let Some(resources) = &mut self.resources else { return };
         let mut warnings = Vec::new();
-        if !known {
-            resources.load(gpu, posed, &mut warnings);
+        let pixels = if self.loads_at_once { u64::MAX } else { PIXELS_PER_FRAME };
+        resources.forget_others(&self.shown);
+        for set in scene.draw_sets() {
+            resources.write(gpu, set, pixels, &mut warnings);
         }
-        resources.upload(gpu, if self.loads_at_once { u64::MAX } else { PIXELS_PER_FRAME }, &mut warnings);
         // A model that is loaded again on another device has the same warnings.
         self.new_warnings
             .extend(warnings.into_iter().filter(|warning| self.warnings.insert(warning.clone())));
-        if let Some(content) = &resources.content {
-            gpu.queue.write_buffer(&content.palettes, 0, bytemuck::cast_slice(posed.palettes()));
-            gpu.queue.write_buffer(&content.weights, 0, bytemuck::cast_slice(posed.weights()));
-            let instances = posed.batches().instances();
-            gpu.queue.write_buffer(&content.instances, 0, bytemuck::cast_slice(instances));
-        }
-        for batch in posed.batches().solid().iter().chain(posed.batches().blended()) {
-            resources.make_pipelines(gpu, &posed.items()[batch.item], batch.mirrored);
+    }
+
+    /// Remembers which models are shown. Allocates nothing while they stay the same.
+    fn keep_shown(&mut self, scene: &Scene) {
+        let is_same = |(kept, set): (&Arc<LoadedModel>, &DrawSet)| Arc::ptr_eq(kept, set.loaded());
+        let count = scene.draw_sets().count();
+        if self.shown.len() != count || !self.shown.iter().zip(scene.draw_sets()).all(is_same) {
+            self.shown = scene.draw_sets().map(|set| Arc::clone(set.loaded())).collect();
+            self.warnings.clear();
         }
     }
 
@@ -120,13 +102,13 @@ impl GpuModel {
         self.loads_at_once = at_once;
     }
 
-    /// Returns whether images of the model wait for the next frame.
+    /// Returns whether images of a model wait for the next frame.
     pub fn is_loading(&self) -> bool {
-        let content = self.resources.as_ref().and_then(|resources| resources.content.as_ref());
-        content.is_some_and(|content| content.images.is_loading())
+        let contents = self.resources.as_ref().map_or(&[][..], |resources| &resources.contents);
+        contents.iter().any(ModelContent::is_loading)
     }
 
-    /// Returns the warnings about the images of the model since the last call, each once also if the device was lost.
+    /// Returns the warnings about the images of the models since the last call, each once also if the device was lost.
     pub fn take_warnings(&mut self) -> Vec<String> {
         std::mem::take(&mut self.new_warnings)
     }
@@ -143,93 +125,88 @@ impl GpuModel {
 
     /// Writes the poses of ghosts to the device, after [`Self::prepare`].
     pub fn prepare_ghosts(&mut self, gpu: &Gpu, ghosts: &GhostSkins) {
-        let Some(ModelResources { pipelines, content: Some(content), ghosts: own, .. }) = &mut self.resources
-        else {
+        let Some(ModelResources { pipelines, contents, ghosts: own, .. }) = &mut self.resources else {
             return;
         };
-        own.prepare(gpu, ghosts, pipelines, &content.geometries);
+        if let Some(content) = content_of_ghosts(contents, ghosts) {
+            own.prepare(gpu, ghosts, pipelines, content.geometries());
+        }
     }
 
     /// Draws the ghosts.
     pub fn draw_ghosts(&self, ghosts: &GhostSkins, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
-        if let Some(ModelResources { content: Some(content), ghosts: own, .. }) = &self.resources {
+        let Some(ModelResources { contents, ghosts: own, .. }) = &self.resources else { return };
+        if let Some(content) = content_of_ghosts(contents, ghosts) {
             let mut recorder = DrawRecorder::new(pass, &gpu.frame_group);
-            own.draw(ghosts, &content.geometries, &mut recorder);
+            own.draw(ghosts, content.geometries(), &mut recorder);
             self.counts.set(self.counts.get() + recorder.counts());
         }
     }
 
     /// Draws the solid surfaces.
-    pub fn draw_solid(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
-        self.draw(posed, posed.batches().solid(), gpu, pass);
+    pub fn draw_solid(&self, scene: &Scene, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
+        self.draw(scene.draw_sets().map(|set| (set, set.batches().solid())), gpu, pass);
     }
 
     /// Draws the blended surfaces, from back to front.
-    pub fn draw_blended(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
-        self.draw(posed, posed.batches().blended(), gpu, pass);
+    pub fn draw_blended(&self, scene: &Scene, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
+        self.draw(scene.blended_runs(), gpu, pass);
     }
 
-    fn draw(&self, posed: &PosedModel, batches: &[DrawBatch], gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
-        let Some(ModelResources { pipelines, materials, content: Some(content), .. }) = &self.resources
-        else {
-            return;
-        };
+    fn draw<'s>(
+        &self,
+        runs: impl Iterator<Item = (&'s DrawSet, &'s [DrawBatch])>,
+        gpu: &Gpu,
+        pass: &mut wgpu::RenderPass<'_>,
+    ) {
+        let Some(ModelResources { pipelines, contents, .. }) = &self.resources else { return };
         let mut recorder = DrawRecorder::new(pass, &gpu.frame_group);
-        recorder.instances(&content.instances);
-        for batch in batches {
-            let item = &posed.items()[batch.item];
-            let part = item.part();
-            let Some(geometry) = content.geometries.get(&part) else { continue };
-            let Some(material) = materials.get(item.material) else { continue };
-            recorder.group(1, content.groups.get(part));
-            recorder.group(2, material);
-            for cull in culls(item) {
-                if let Some(pipeline) = pipelines.get(kind(item, batch.mirrored, *cull)) {
-                    recorder.draw(pipeline, geometry, batch.instances.clone());
-                }
+        for (set, batches) in runs.filter(|run| !run.1.is_empty()) {
+            if let Some(content) = content_of(contents, set.loaded()) {
+                content.draw(set, batches, pipelines, &mut recorder);
             }
         }
         self.counts.set(self.counts.get() + recorder.counts());
     }
 }
 
+/// Returns the resources of a model.
+fn content_of<'a>(contents: &'a [ModelContent], loaded: &Arc<LoadedModel>) -> Option<&'a ModelContent> {
+    contents.iter().find(|content| Arc::ptr_eq(content.loaded(), loaded))
+}
+
+/// Returns the resources of the model that ghosts are of.
+fn content_of_ghosts<'a>(contents: &'a [ModelContent], ghosts: &GhostSkins) -> Option<&'a ModelContent> {
+    content_of(contents, ghosts.posed()?.loaded())
+}
+
 impl ModelResources {
-    fn load(&mut self, gpu: &Gpu, posed: &PosedModel, warnings: &mut Vec<String>) {
-        let loaded = posed.loaded();
-        // The textures of the model before are dropped first.
-        self.content = None;
-        self.materials.forget();
-        let (images, smaller) = ModelImages::new(gpu, &mut self.maker, loaded);
-        warnings.extend(smaller);
-        self.materials.bind(gpu, loaded, &images);
-        self.ghosts.forget();
-        let buffer = |label, size, usage| gpu.buffer(label, size, usage);
-        let palettes =
-            buffer("palettes", size_of_val::<[Affine]>(posed.palettes()), wgpu::BufferUsages::STORAGE);
-        let weights =
-            buffer("morph weights", size_of_val::<[f32]>(posed.weights()), wgpu::BufferUsages::STORAGE);
-        let size = size_of::<DrawInstance>() * posed.items().len().max(1);
-        let instances = buffer("instances", size, wgpu::BufferUsages::VERTEX);
-        let mut geometries = HashMap::new();
-        for item in posed.items() {
-            geometries.entry(item.part()).or_insert_with(|| {
-                self.make_pipelines(gpu, item, false);
-                GpuGeometry::new(&gpu.device, primitive(loaded, item))
-            });
+    /// Drops the resources of models that are not shown any more, and with them their textures.
+    fn forget_others(&mut self, shown: &[Arc<LoadedModel>]) {
+        let before = self.contents.len();
+        self.contents.retain(|content| shown.iter().any(|loaded| Arc::ptr_eq(loaded, content.loaded())));
+        if self.contents.len() < before {
+            self.ghosts.forget();
         }
-        let groups = DrawGroups::new(gpu, &self.pipelines, &palettes, &weights, &geometries);
-        let loaded = Arc::clone(loaded);
-        self.content =
-            Some(ModelContent { loaded, images, palettes, weights, instances, geometries, groups });
     }
 
-    /// Uploads the next images of the model.
-    fn upload(&mut self, gpu: &Gpu, pixels: u64, warnings: &mut Vec<String>) {
-        if let Some(ModelContent { loaded, images, .. }) = &mut self.content
-            && images.is_loading()
-        {
-            warnings.extend(images.upload(gpu, &mut self.maker, loaded, pixels));
-            self.materials.bind(gpu, loaded, images);
+    /// Writes the poses of a model, which is loaded first unless it is known.
+    fn write(&mut self, gpu: &Gpu, set: &DrawSet, pixels: u64, warnings: &mut Vec<String>) {
+        let known = self.contents.iter().position(|content| Arc::ptr_eq(content.loaded(), set.loaded()));
+        let at = known.unwrap_or_else(|| {
+            for item in set.items() {
+                self.make_pipelines(gpu, item, false);
+            }
+            let (content, smaller) = ModelContent::new(gpu, &self.pipelines, &mut self.maker, set);
+            warnings.extend(smaller);
+            self.contents.push(content);
+            self.contents.len() - 1
+        });
+        let Self { pipelines, maker, materials, contents, .. } = self;
+        contents[at].upload(gpu, maker, materials, pixels, warnings);
+        contents[at].write(gpu, pipelines, set);
+        for batch in set.batches().solid().iter().chain(set.batches().blended()) {
+            self.make_pipelines(gpu, &set.items()[batch.item], batch.mirrored);
         }
     }
 
@@ -239,10 +216,6 @@ impl ModelResources {
             self.pipelines.make(gpu, kind(item, mirrored, *cull));
         }
     }
-}
-
-fn primitive<'a>(loaded: &'a LoadedModel, item: &DrawItem) -> &'a Primitive {
-    &loaded.model.meshes[item.mesh as usize].primitives[item.primitive as usize]
 }
 
 /// Face culling of each drawing of an item: of a blended, double-sided surface the far side is drawn first.

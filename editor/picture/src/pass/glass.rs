@@ -38,8 +38,8 @@ impl Pass for GlassPass {
     fn prepare(&mut self, _: &Surroundings<'_>, _: &mut FrameCommands) {}
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
-        if let Some(posed) = around.scene.model().filter(|_| around.scene.look.surface) {
-            self.model.borrow().draw_blended(posed, around.gpu, pass);
+        if around.scene.look.surface {
+            self.model.borrow().draw_blended(around.scene, around.gpu, pass);
         }
     }
 }

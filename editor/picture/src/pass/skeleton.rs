@@ -92,7 +92,8 @@ impl Pass for SkeletonPass {
     }
 
     fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
-        let model = around.scene.model().filter(|_| around.scene.look.skeleton);
+        let is_shown = around.scene.look.skeleton && around.scene.cast().is_none();
+        let model = around.scene.model().filter(|_| is_shown);
         let (Some(resources), Some(model)) = (&mut self.resources, model) else { return };
         for (body, buffer) in Body::ALL.into_iter().zip(&mut resources.instances) {
             let bytes: &[u8] = bytemuck::cast_slice(model.shape().instances(body));
@@ -117,7 +118,7 @@ impl Pass for SkeletonPass {
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
         let (Some(resources), Some(model)) = (&self.resources, around.scene.model()) else { return };
         let look = &around.scene.look;
-        if !look.skeleton {
+        if !look.skeleton || around.scene.cast().is_some() {
             return;
         }
         let size = around.scene.size();

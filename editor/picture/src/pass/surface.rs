@@ -7,7 +7,7 @@ use crate::model::GpuModel;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Draws the solid surfaces, and writes the model to the device for the other passes that draw it.
+/// Draws the solid surfaces, and writes the models to the device for the other passes that draw it.
 pub(super) struct SurfacePass {
     model: Rc<RefCell<GpuModel>>,
 }
@@ -36,12 +36,12 @@ impl Pass for SurfacePass {
     }
 
     fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
-        self.model.borrow_mut().prepare(around.gpu, around.scene.model());
+        self.model.borrow_mut().prepare(around.gpu, around.scene);
     }
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
-        if let Some(posed) = around.scene.model().filter(|_| around.scene.look.surface) {
-            self.model.borrow().draw_solid(posed, around.gpu, pass);
+        if around.scene.look.surface {
+            self.model.borrow().draw_solid(around.scene, around.gpu, pass);
         }
     }
 }

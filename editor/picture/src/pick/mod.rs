@@ -14,6 +14,7 @@ mod click;
 mod cycle;
 pub(crate) mod region;
 pub(crate) mod surface;
+mod things;
 
 pub use cycle::ClickCycle;
 pub use region::{Lasso, OwnedRegion, Region, bones_in_region};

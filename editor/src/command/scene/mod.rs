@@ -1,9 +1,11 @@
-//! Scripts of scenes on the command line: `check`, `pose` and `script`.
+//! Scripts of scenes on the command line: `check`, `pose`, `render` and `script`.
 
 mod pose;
+mod render;
 mod times;
 
 pub(super) use pose::RolePoses;
+pub(super) use render::{FrameRange, RenderOrder, ShotChoice, render};
 pub(super) use times::ScriptArguments;
 
 use super::Failure;

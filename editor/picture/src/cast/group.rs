@@ -1,0 +1,103 @@
+//! The things of a scene that share a model.
+
+use super::pick::GroupPicker;
+use crate::draw_set::DrawSet;
+use crate::uniform::Affine;
+use dragonfly_anim::animation::final_pose;
+use dragonfly_anim::bounds::AxisBox;
+use dragonfly_anim::data::ModelData;
+use dragonfly_anim::fast::matrix::mat4;
+use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_anim::fast::{Matrix34, Rig, RootPoses, SkinBinding, final_poses, to_root};
+use dragonfly_document::LoadedModel;
+use glam::Mat4;
+use std::sync::Arc;
+
+/// Returns the number of matrices of one copy of a model.
+pub(super) fn matrices(model: &ModelData) -> usize {
+    (model.skins.iter().map(|skin| skin.bones.len()).sum::<usize>() + model.instances.len()).max(1)
+}
+
+/// Copies of a model, one for each thing.
+pub(super) struct CastGroup {
+    draws: DrawSet,
+    copies: usize,
+    bindings: Vec<SkinBinding>,
+    /// The pose of things that have none: at rest.
+    rest: RootPoses,
+    bones: usize,
+    /// Created by the first click on one of them.
+    picker: Option<GroupPicker>,
+}
+
+impl CastGroup {
+    pub(super) fn new(loaded: Arc<LoadedModel>, copies: usize) -> Self {
+        let model = &loaded.model;
+        let rig = Rig::new(&model.animation.skeleton);
+        let mut rest = RootPoses::new(&rig);
+        to_root(SimdLevel::best(), &rig, rig.rest().blocks(), &mut rest);
+        let bindings = model.skins.iter().map(|skin| SkinBinding::new(&rig, skin)).collect();
+        let mut draws = DrawSet::new(Arc::clone(&loaded), copies);
+        for copy in 0..copies {
+            let (layout, _, weights) = draws.write(copy);
+            for (instance, &(start, count)) in model.instances.iter().zip(&layout.weights) {
+                for (weight, &given) in weights[start..start + count].iter_mut().zip(&instance.morph_weights)
+                {
+                    *weight = given;
+                }
+            }
+        }
+        Self { draws, copies, bindings, rest, bones: rig.bones(), picker: None }
+    }
+
+    pub(super) fn is_of(&self, loaded: &Arc<LoadedModel>, copies: usize) -> bool {
+        Arc::ptr_eq(self.draws.loaded(), loaded) && self.copies == copies
+    }
+
+    pub(super) fn draws(&self) -> &DrawSet {
+        &self.draws
+    }
+
+    pub(super) fn draws_mut(&mut self) -> &mut DrawSet {
+        &mut self.draws
+    }
+
+    /// The picker of the model.
+    pub(super) fn picker(&mut self) -> &mut GroupPicker {
+        let loaded = self.draws.loaded();
+        self.picker.get_or_insert_with(|| GroupPicker::new(&loaded.model))
+    }
+
+    /// Poses a copy at `place`. Returns the box around it in the scene. Allocates nothing.
+    pub(super) fn pose(
+        &mut self,
+        level: SimdLevel,
+        copy: usize,
+        place: Mat4,
+        pose: Option<&RootPoses>,
+    ) -> AxisBox {
+        let fits = |pose: &&RootPoses| pose.matrices().len() == self.bones;
+        let pose = pose.filter(fits).unwrap_or(&self.rest);
+        let loaded = Arc::clone(self.draws.loaded());
+        let (layout, palettes, _) = self.draws.write(copy);
+        let scene_from_model = Affine::from(place);
+        let (skins, rigid) = palettes.split_at_mut(layout.rigid);
+        for (binding, &start) in self.bindings.iter().zip(&layout.skins) {
+            let finals: &mut [Matrix34] =
+                bytemuck::cast_slice_mut(&mut skins[start..start + binding.joints()]);
+            final_poses(level, binding, pose, finals);
+        }
+        for matrix in skins {
+            *matrix = scene_from_model.after(matrix);
+        }
+        for (matrix, instance) in rigid.iter_mut().zip(&loaded.model.instances) {
+            let carrier = instance.bone.map_or(Mat4::IDENTITY, |bone| mat4(pose.get(bone as usize)));
+            *matrix = scene_from_model.after(&final_pose(carrier, instance.to_bone).into());
+        }
+        let parts = self.draws.part_boxes().iter().zip(self.draws.palettes_of(copy));
+        let around = parts
+            .filter(|(part, _)| !part.is_empty())
+            .fold(AxisBox::EMPTY, |around, (part, matrix)| around.union(part.moved(&Mat4::from(*matrix))));
+        if around.is_empty() { AxisBox::at(place.w_axis.truncate()) } else { around }
+    }
+}

@@ -1,0 +1,303 @@
+//! The scene of a script on the processor: every thing at its place and in its pose at a time, laid out for the device.
+//!
+//! Things with the same model share it, and their draw calls. Everything is computed into memory that is allocated when the scene is shown;
+//! at a time that was computed last, nothing is computed.
+
+mod group;
+mod lens;
+mod light;
+mod pick;
+mod placeholder;
+
+pub use light::{LightKind, SceneLight};
+pub use pick::PickedThing;
+pub(crate) use placeholder::made_model;
+
+use super::batch::DrawBatch;
+use super::contact::add_spots;
+use super::draw_set::DrawSet;
+use super::frustum::ViewFrustum;
+use super::uniform::{LightUniform, SPOTS};
+use crate::camera::Camera;
+use dragonfly_anim::bounds::{AxisBox, Bounds, Sphere};
+use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_anim::stage::time::{StageRate, StageTime};
+use dragonfly_anim::stage::{PlannedThing, StageCamera, StagePlan, StageScene};
+use dragonfly_document::{LoadedModel, SceneModel, SceneView};
+use glam::{Vec3, Vec4};
+use group::CastGroup;
+use placeholder::Placeholders;
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Largest number of matrices of one model: what a device can bind at once. Further copies are not drawn.
+const MOST_MATRICES: usize = 2_000_000;
+
+/// The camera through which a scene is seen.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum ThroughCamera {
+    /// The free one, which the user moves.
+    #[default]
+    Free,
+    /// The one of the shot; the free one where the cast has no camera.
+    Shot,
+    /// The camera with this id; the free one where there is none.
+    Of(Arc<str>),
+}
+
+/// The place of a thing among what is drawn: its group, and its copy in it.
+#[derive(Clone, Copy, Debug)]
+struct CastMember {
+    group: usize,
+    copy: usize,
+    is_placeholder: bool,
+}
+
+/// A scene in the state of one time.
+pub struct PosedScene {
+    plan: Arc<StagePlan>,
+    level: SimdLevel,
+    /// Width divided by height of the image of the script.
+    aspect: f32,
+    state: StageScene,
+    groups: Vec<CastGroup>,
+    /// For each thing; `None` without anything to draw.
+    members: Vec<Option<CastMember>>,
+    /// Boxes around the things in the scene; empty without anything to draw.
+    boxes: Vec<AxisBox>,
+    bounds: Bounds,
+    lights: Vec<SceneLight>,
+    spots: [Vec4; SPOTS],
+    placeholders: Placeholders,
+    /// Distance, group and item of each blended item, farthest first.
+    back_to_front: Vec<(f32, u32, u32)>,
+    /// Draw calls of blended surfaces, farthest first: a group, and a part of its draw calls.
+    runs: Vec<(usize, Range<usize>)>,
+    at: Option<StageTime>,
+}
+
+impl PosedScene {
+    /// Returns the scene of `view` before its first time; `None` without a plan. What it has in common with the scene shown `before` is kept.
+    pub fn new(view: &SceneView, before: Option<Self>) -> Option<Self> {
+        let plan = Arc::clone(view.plan.as_ref()?);
+        let (mut old_groups, mut placeholders) =
+            before.map_or_else(Default::default, |before| (before.groups, before.placeholders));
+        let drawn = models(view, &plan, &mut placeholders);
+        let mut groups: Vec<(Arc<LoadedModel>, usize)> = Vec::new();
+        let mut index: HashMap<*const LoadedModel, usize> = HashMap::new();
+        let members: Vec<Option<CastMember>> = drawn
+            .into_iter()
+            .map(|drawn| {
+                let (loaded, is_placeholder) = drawn?;
+                let group = *index.entry(Arc::as_ptr(&loaded)).or_insert_with(|| {
+                    groups.push((loaded, 0));
+                    groups.len() - 1
+                });
+                let (loaded, copies) = &mut groups[group];
+                let member = CastMember { group, copy: *copies, is_placeholder };
+                let fits = (*copies + 1) * group::matrices(&loaded.model) <= MOST_MATRICES;
+                *copies += usize::from(fits);
+                fits.then_some(member)
+            })
+            .collect();
+        let groups: Vec<CastGroup> = groups
+            .into_iter()
+            .map(|(loaded, copies)| {
+                let same = |group: &CastGroup| group.is_of(&loaded, copies);
+                match old_groups.iter().position(same) {
+                    Some(old) => old_groups.swap_remove(old),
+                    None => CastGroup::new(loaded, copies),
+                }
+            })
+            .collect();
+        let blended = groups.iter().map(|group| group.draws().blended()).sum();
+        let [width, height] = view.script.as_ref().map_or([16, 9], |script| script.size());
+        Some(Self {
+            level: SimdLevel::best(),
+            aspect: width.max(1) as f32 / height.max(1) as f32,
+            state: plan.new_scene(),
+            boxes: vec![AxisBox::EMPTY; members.len()],
+            members,
+            groups,
+            bounds: Bounds::default(),
+            lights: light::of_script(view, &plan),
+            spots: [Vec4::ZERO; SPOTS],
+            placeholders,
+            back_to_front: Vec::with_capacity(blended),
+            runs: Vec::with_capacity(blended),
+            at: None,
+            plan,
+        })
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &Arc<StagePlan> {
+        &self.plan
+    }
+
+    /// The state of all things at the time computed last.
+    pub fn state(&self) -> &StageScene {
+        &self.state
+    }
+
+    /// Width divided by height of the image of the script.
+    pub fn aspect(&self) -> f32 {
+        self.aspect
+    }
+
+    /// The lights at the time computed last.
+    pub fn lights(&self) -> &[SceneLight] {
+        &self.lights
+    }
+
+    /// The things, by their models.
+    pub fn draw_sets(&self) -> impl Iterator<Item = &DrawSet> + Clone {
+        self.groups.iter().map(CastGroup::draws)
+    }
+
+    /// The draw calls of blended surfaces, farthest first.
+    pub(super) fn blended_runs(&self) -> impl Iterator<Item = (&DrawSet, &[DrawBatch])> {
+        self.runs.iter().map(|(group, range)| {
+            let set = self.groups[*group].draws();
+            (set, &set.batches().blended()[range.clone()])
+        })
+    }
+
+    /// Computes the scene at `seconds`. Allocates nothing; at the time computed last, it does nothing.
+    pub fn pose(&mut self, seconds: f64) {
+        let time = time_of(seconds, self.plan.rate());
+        if self.at == Some(time) {
+            return;
+        }
+        self.at = Some(time);
+        self.plan.scene_at(time, &mut self.state);
+        let mut around = AxisBox::EMPTY;
+        for (thing, member) in self.members.iter().enumerate() {
+            let Some(CastMember { group, copy, is_placeholder }) = *member else { continue };
+            let mut place = self.state.things[thing].transform;
+            if is_placeholder {
+                place.scale = Vec3::ONE;
+            }
+            let pose = self.state.things[thing].pose.as_ref().map(|pose| &pose.to_root);
+            self.boxes[thing] = self.groups[group].pose(self.level, copy, place.to_matrix(), pose);
+            around = around.union(self.boxes[thing]);
+        }
+        self.bounds = bounds_of(&around);
+        self.place_spots();
+        light::update(&mut self.lights, &self.state);
+    }
+
+    /// Computes the spots of the contact shadow: an equal number for each thing.
+    fn place_spots(&mut self) {
+        self.spots = [Vec4::ZERO; SPOTS];
+        let count = self.members.iter().flatten().count();
+        let each = (SPOTS / count.max(1)).clamp(1, 16);
+        let members = self.members.iter().enumerate().filter_map(|(thing, member)| Some((thing, (*member)?)));
+        for (spots, (thing, member)) in self.spots.chunks_exact_mut(each).zip(members) {
+            let draws = self.groups[member.group].draws();
+            let reach = self.boxes[thing].half().length();
+            add_spots(spots, draws.part_boxes(), draws.palettes_of(member.copy), reach);
+        }
+    }
+
+    /// Collects the draw calls of what is inside `frustum`, blended surfaces by their distance from `eye`. Allocates nothing.
+    pub fn batch(&mut self, eye: Vec3, back: Vec3, frustum: &ViewFrustum) {
+        self.back_to_front.clear();
+        for (group, draws) in (0..).zip(&mut self.groups) {
+            draws.draws_mut().batch_solid(frustum);
+            let order = &mut self.back_to_front;
+            draws.draws().for_each_blended(eye, back, |distance, item| order.push((distance, group, item)));
+        }
+        self.back_to_front.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        self.runs.clear();
+        for &(_, group, item) in &self.back_to_front {
+            let group = group as usize;
+            let draws = self.groups[group].draws_mut();
+            let before = draws.batches().blended().len();
+            let is_first = self.runs.last().is_none_or(|run| run.0 != group);
+            draws.add_blended(item, frustum, is_first);
+            let after = draws.batches().blended().len();
+            match self.runs.last_mut() {
+                Some(run) if !is_first => run.1.end = after,
+                _ if after > before => self.runs.push((group, before..after)),
+                _ => {}
+            }
+        }
+    }
+
+    /// The spots of the contact shadow at the time computed last.
+    pub(super) fn spots(&self) -> &[Vec4; SPOTS] {
+        &self.spots
+    }
+
+    /// Writes the lights for the device. Returns their number.
+    pub(super) fn write_lights(&self, out: &mut [LightUniform]) -> usize {
+        light::write(&self.lights, out)
+    }
+
+    /// Bounds of everything that is drawn at the time computed last.
+    pub fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// The box around a thing at the time computed last; empty without anything to draw, and past the end.
+    pub fn box_of(&self, thing: usize) -> AxisBox {
+        self.boxes.get(thing).copied().unwrap_or(AxisBox::EMPTY)
+    }
+
+    /// The camera of the script through which `through` looks; `None` for the free one.
+    pub fn stage_camera(&self, through: &ThroughCamera) -> Option<StageCamera> {
+        match through {
+            ThroughCamera::Free => None,
+            ThroughCamera::Shot => self.state.camera,
+            ThroughCamera::Of(id) => self.plan.camera_of(self.plan.thing_called(id)?, &self.state),
+        }
+    }
+
+    /// The same as a camera of a viewport with this ratio of width to height.
+    pub(super) fn camera(&self, through: &ThroughCamera, aspect: f32) -> Option<Camera> {
+        let camera = self.stage_camera(through)?;
+        Some(lens::camera(&camera, self.aspect, aspect, &self.bounds.sphere))
+    }
+}
+
+/// Returns the model of each thing that has one, and whether it is a placeholder.
+fn models(
+    view: &SceneView,
+    plan: &StagePlan,
+    placeholders: &mut Placeholders,
+) -> Vec<Option<(Arc<LoadedModel>, bool)>> {
+    let elements = view.script.iter().flat_map(|script| script.things());
+    let sources: HashMap<&str, &str> =
+        elements.filter_map(|element| Some((element.value("id")?, element.value("model")?))).collect();
+    let model = |thing: &PlannedThing| {
+        if !matches!(thing.kind, "role" | "prop") {
+            return None;
+        }
+        let source = sources.get(&*thing.id).and_then(|source| view.models.get(*source));
+        Some(match source {
+            Some(SceneModel::Loaded(loaded)) => (Arc::clone(loaded), false),
+            Some(SceneModel::Loading | SceneModel::Missing(_)) | None => {
+                (placeholders.of(&thing.id, thing.kind == "role"), true)
+            }
+        })
+    };
+    plan.things().iter().map(model).collect()
+}
+
+/// Returns the time of a clock. Within the precision of clocks near a frame it is that frame, exactly.
+fn time_of(seconds: f64, rate: StageRate) -> StageTime {
+    let frame = (seconds * rate.per_second()).round();
+    let exact = rate.frame(frame as i64);
+    let precision = f64::from(f32::EPSILON) * seconds.abs().max(1.0);
+    if (exact.seconds() - seconds).abs() <= precision { exact } else { StageTime::from_seconds(seconds) }
+}
+
+fn bounds_of(around: &AxisBox) -> Bounds {
+    if around.is_empty() {
+        return Bounds::default();
+    }
+    let sphere = Sphere { center: around.center(), radius: around.half().length() };
+    Bounds { min: around.min, max: around.max, sphere }
+}

@@ -1,0 +1,162 @@
+//! Drawing the things of a scene that have no surface: cameras, lights, marks and paths; and boxes around selected things.
+
+use super::component::{ControlFrame, GraphicComponent};
+use crate::appearance::Appearance;
+use crate::cast::{LightKind, PosedScene};
+use crate::gizmo::{GizmoRole, GizmoShape};
+use dragonfly_anim::bounds::AxisBox;
+use dragonfly_anim::stage::StagePath;
+use glam::{Quat, Vec3};
+use std::f32::consts::TAU;
+use std::sync::Arc;
+
+/// The things of a scene that are selected, and the one under the pointer, by their ids.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ThingAppearance {
+    /// The selected things.
+    pub selected: Arc<[Arc<str>]>,
+    /// The thing under the pointer.
+    pub hovered: Option<Arc<str>>,
+}
+
+impl Appearance for ThingAppearance {}
+
+/// Length of the drawing of a camera or a light, meters.
+const SIZE: f32 = 0.4;
+/// Radius of a mark on the ground, meters.
+const MARK: f32 = 0.25;
+/// Number of sides of a circle.
+const ROUND: usize = 16;
+/// Half the size of the box around a thing of which nothing is drawn, meters.
+const HALF: f32 = 0.25;
+/// Number of lines of a path.
+const PIECES: usize = 96;
+
+/// Draws the things of a scene.
+#[derive(Default)]
+pub(super) struct CastGraphic;
+
+impl GraphicComponent for CastGraphic {
+    fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape) {
+        let Some(cast) = frame.cast else { return };
+        let marked = frame.appearances.get::<ThingAppearance>();
+        let role_of = |id: &str| {
+            let marked = marked?;
+            if marked.selected.iter().any(|selected| **selected == *id) {
+                Some(GizmoRole::Selected)
+            } else if marked.hovered.as_deref() == Some(id) {
+                Some(GizmoRole::Hover)
+            } else {
+                None
+            }
+        };
+        for (thing, planned) in cast.plan().things().iter().enumerate() {
+            let role = role_of(&planned.id);
+            if frame.look.helpers {
+                draw(cast, thing, role.unwrap_or(GizmoRole::View), shape);
+            }
+            if let Some(role) = role.filter(|_| cast.has_place(thing)) {
+                let around = cast.box_of(thing);
+                let middle = cast.middle_of(thing);
+                let around = if around.is_empty() { cube(middle) } else { around };
+                add_box(&around, role, shape);
+            }
+        }
+    }
+}
+
+fn cube(middle: Vec3) -> AxisBox {
+    AxisBox { min: middle - HALF, max: middle + HALF }
+}
+
+/// Draws a thing that has no surface.
+fn draw(cast: &PosedScene, thing: usize, role: GizmoRole, shape: &mut GizmoShape) {
+    let planned = &cast.plan().things()[thing];
+    let place = &cast.state().things[thing].transform;
+    match planned.kind {
+        "camera" => {
+            if let Some(camera) = cast.plan().camera_of(thing, cast.state()) {
+                let is_seen = cast.state().camera.is_some_and(|seen| seen.thing == thing);
+                let half = Vec3::new(18.0, 18.0 / cast.aspect(), -camera.lens) / camera.lens.max(1.0) * SIZE;
+                add_camera(
+                    camera.position,
+                    camera.rotation,
+                    half,
+                    role,
+                    if is_seen { 1.0 } else { 0.5 },
+                    shape,
+                );
+            }
+        }
+        "light" => {
+            if let Some(light) = cast.lights().iter().find(|light| light.thing == thing) {
+                add_circle(light.position, light.direction.any_orthonormal_pair(), SIZE * 0.4, role, shape);
+                if light.kind != LightKind::Point {
+                    shape.add_line(light.position, light.position + light.direction * SIZE * 2.0, role, 1.0);
+                }
+            }
+        }
+        "mark" => {
+            let ahead = place.rotation * Vec3::Z;
+            add_circle(place.translation, (Vec3::X, Vec3::Z), MARK, role, shape);
+            shape.add_line(place.translation, place.translation + ahead * MARK * 2.0, role, 1.0);
+        }
+        "path" => {
+            if let Some(path) = &planned.path {
+                add_path(path, role, shape);
+            }
+        }
+        // Roles, props and effects.
+        _ => {}
+    }
+}
+
+fn add_camera(at: Vec3, rotation: Quat, half: Vec3, role: GizmoRole, opacity: f32, shape: &mut GizmoShape) {
+    let corner = |x: f32, y: f32| at + rotation * (half * Vec3::new(x, y, 1.0));
+    let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    for (index, &from) in corners.iter().enumerate() {
+        shape.add_line(at, from, role, opacity);
+        shape.add_line(from, corners[(index + 1) % corners.len()], role, opacity);
+    }
+    // A roof that shows which side is up.
+    let [left, top, right] = [(-0.5, 1.0), (0.0, 1.6), (0.5, 1.0)].map(|(x, y)| corner(x, y));
+    shape.add_line(left, top, role, opacity);
+    shape.add_line(top, right, role, opacity);
+}
+
+fn add_circle(at: Vec3, (right, up): (Vec3, Vec3), radius: f32, role: GizmoRole, shape: &mut GizmoShape) {
+    let point = |side: usize| {
+        let (sin, cos) = (side as f32 / ROUND as f32 * TAU).sin_cos();
+        at + (right * cos + up * sin) * radius
+    };
+    for side in 0..ROUND {
+        shape.add_line(point(side), point(side + 1), role, 1.0);
+    }
+}
+
+fn add_path(path: &StagePath, role: GizmoRole, shape: &mut GizmoShape) {
+    let at = |piece: usize| path.at(path.length() * piece as f64 / PIECES as f64).position.as_vec3();
+    let mut before = at(0);
+    for piece in 1..=PIECES {
+        let next = at(piece);
+        shape.add_line(before, next, role, 0.8);
+        before = next;
+    }
+}
+
+/// Adds the twelve edges of a box.
+fn add_box(around: &AxisBox, role: GizmoRole, shape: &mut GizmoShape) {
+    let corner = |number: usize| {
+        let pick = |bit: usize, low: f32, high: f32| if number >> bit & 1 == 0 { low } else { high };
+        Vec3::new(
+            pick(0, around.min.x, around.max.x),
+            pick(1, around.min.y, around.max.y),
+            pick(2, around.min.z, around.max.z),
+        )
+    };
+    for number in 0..8 {
+        for bit in (0..3).filter(|bit| number >> bit & 1 == 0) {
+            shape.add_line(corner(number), corner(number | 1 << bit), role, 0.9);
+        }
+    }
+}

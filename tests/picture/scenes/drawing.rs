@@ -1,0 +1,184 @@
+//! Pictures of scenes: things of one model share their draw calls, what is transparent is drawn from back to front, lamps shine.
+
+use super::{SIZE, arms, projected, script, settings, shown, state, view};
+use dragonfly_anim::fast::matrix::mat4;
+use dragonfly_kit::picture::images::difference;
+use dragonfly_kit::picture::studio;
+use dragonfly_picture::{ThingAppearance, ThroughCamera};
+use glam::Vec3;
+use image::RgbaImage;
+use std::time::Instant;
+
+#[test]
+fn bones_of_each_role_lie_on_its_pixels() {
+    let Some(mut studio) = studio::studio() else { return };
+    let view = view(&arms());
+    for seconds in [0.0_f32, 0.5, 1.75] {
+        let picture = studio.render_scene(&view, &settings(ThroughCamera::Shot, seconds)).unwrap();
+        let state = state(&view, f64::from(seconds));
+        let camera = state.camera.unwrap();
+        let (mut inside, mut found) = (0, 0);
+        for thing in &state.things[..2] {
+            let place = thing.transform.to_matrix();
+            for matrix in thing.pose.as_ref().unwrap().to_root.matrices() {
+                // A little along the bone, inside the tube and not at its lower end.
+                let bone = place.transform_point3(mat4(matrix).transform_point3(Vec3::Y * 0.1));
+                let Some(at) = projected(camera.position, camera.rotation, camera.lens, bone) else {
+                    continue;
+                };
+                if at.abs().max_element() < 0.98 {
+                    let [x, y] = [(at.x + 1.0) / 2.0 * SIZE[0] as f32, (1.0 - at.y) / 2.0 * SIZE[1] as f32];
+                    inside += 1;
+                    found += usize::from(picture.get_pixel(x as u32, y as u32)[3] > 128);
+                }
+            }
+        }
+        assert!(inside >= 2 && found == inside, "{found} of {inside} bones at {seconds}");
+    }
+    assert_eq!(studio.stage().device().errors(), 0);
+}
+
+#[test]
+fn roles_of_one_model_share_their_draw_calls() {
+    let Some(mut studio) = studio::studio() else { return };
+    let solid = |roles: usize| {
+        let cast: String = (0..roles)
+            .map(|role| format!("<role id=\"r{role}\" model=\"arm\" at=\"{role} 0 0\"/>"))
+            .collect();
+        view(&script(&cast, "<wait dur=\"1\"/>"))
+    };
+    let mut draws = |roles: usize| {
+        studio.render_scene(&solid(roles), &settings(ThroughCamera::Free, 0.0)).unwrap();
+        let scene = &studio.stage().scene;
+        let solid: usize = scene.draw_sets().map(|set| set.batches().solid().len()).sum();
+        let instances: usize = scene.draw_sets().map(|set| set.batches().instances().len()).sum();
+        (solid, instances)
+    };
+    assert_eq!(draws(1), (1, 2));
+    assert_eq!(draws(20), (1, 40));
+}
+
+#[test]
+fn what_is_transparent_is_drawn_from_back_to_front_also_between_models() {
+    let Some(mut studio) = studio::studio() else { return };
+    // The panes of three arms in a row away from the camera; the middle one is of another model of the same shape.
+    let text = script(
+        r#"<role id="a" model="arm" at="0 0 0"/><role id="b" model="other" at="0 0 -2"/><role id="c" model="arm" at="0 0 -4"/>
+        <camera id="eye" at="0 3 8" look="0 2.5 0"/>"#,
+        "<wait dur=\"1\"/>",
+    );
+    let view = view(&text);
+    let mut models = std::collections::BTreeMap::clone(&view.models);
+    let other = dragonfly_kit::document::arm::loaded();
+    models.insert("other".to_owned(), dragonfly_document::SceneModel::Loaded(other));
+    let view = std::sync::Arc::new(dragonfly_document::SceneView {
+        models: std::sync::Arc::new(models),
+        ..dragonfly_document::SceneView::clone(&view)
+    });
+    let two = studio.render_scene(&view, &settings(ThroughCamera::Shot, 0.0)).unwrap();
+    let blended = studio.stage().draw_calls();
+    let one = studio.render_scene(&super::view(&text), &settings(ThroughCamera::Shot, 0.0)).unwrap();
+    assert_eq!(difference(&two, &one), 0, "the picture does not depend on how models are shared");
+    assert!(blended > studio.stage().draw_calls());
+}
+
+/// Returns the mean brightness of the left and the right half of what is drawn.
+fn halves(picture: &RgbaImage) -> [f64; 2] {
+    let mut sums = [(0.0, 0.0); 2];
+    for (x, _, pixel) in picture.enumerate_pixels().filter(|(.., pixel)| pixel[3] == 255) {
+        let half = &mut sums[usize::from(x >= picture.width() / 2)];
+        half.0 += f64::from(pixel[0]) + f64::from(pixel[1]) + f64::from(pixel[2]);
+        half.1 += 3.0;
+    }
+    sums.map(|(sum, count)| sum / f64::max(count, 1.0))
+}
+
+#[test]
+fn lamps_of_the_scene_replace_those_of_the_studio() {
+    let Some(mut studio) = studio::studio() else { return };
+    let lit = |light: &str| {
+        let cast = format!(
+            r#"<role id="a" model="arm"/><camera id="eye" at="0 1.5 5" look="0 1.5 0" lens="50mm"/>{light}"#
+        );
+        view(&script(&cast, "<wait dur=\"1\"/>"))
+    };
+    let mut picture =
+        |light: &str| studio.render_scene(&lit(light), &settings(ThroughCamera::Shot, 0.0)).unwrap();
+    let [studio_left, _] = halves(&picture(""));
+    let sun = |x: &str, strength: &str| {
+        format!(
+            r##"<light id="sun" kind="sun" direction="{x} -0.4 -0.4" strength="{strength}" color="#ffffff"/>"##
+        )
+    };
+    let (from_left, from_right) = (halves(&picture(&sun("1", "3"))), halves(&picture(&sun("-1", "3"))));
+    println!("studio {studio_left:.0}, from the left {from_left:.0?}, from the right {from_right:.0?}");
+    assert!(from_left[0] > 1.15 * from_left[1] && from_right[1] > 1.15 * from_right[0]);
+    let weak = halves(&picture(&sun("1", "1")));
+    assert!(weak[0] < 0.9 * from_left[0], "a weaker sun is darker");
+    assert_eq!(halves(&picture(&sun("1", "0")))[0], studio_left, "a dark lamp counts as none");
+    let near = |z: &str, kind: &str| {
+        format!(r#"<light id="lamp" kind="{kind}" at="0 1.5 {z}" direction="0 0 -1" strength="6"/>"#)
+    };
+    let [close, _] = halves(&picture(&near("1.5", "point")));
+    let [far, _] = halves(&picture(&near("6", "point")));
+    assert!(close > 1.2 * far, "{close} {far}");
+    let [spot, _] = halves(&picture(&near("3", "spot")));
+    let behind = format!(r#"<light id="lamp" kind="spot" at="0 1.5 3" direction="0 0 1" strength="6"/>"#);
+    assert!(spot > 1.1 * halves(&picture(&behind))[0], "a spot shines in its direction only");
+}
+
+#[test]
+fn titles_are_drawn_while_they_are_shown() {
+    let Some(mut studio) = studio::studio() else { return };
+    let text = script(
+        r#"<role id="a" model="arm"/><camera id="eye" at="0 1.5 9" look="0 1.5 0"/>"#,
+        r#"<wait dur="3"/><title text="The End" begin="1" dur="1" at="0.5 0.85"/>"#,
+    );
+    let view = view(&text);
+    let mut at = |time: f32| studio.render_scene(&view, &settings(ThroughCamera::Shot, time)).unwrap();
+    let (before, during) = (at(0.5), at(1.5));
+    let changed: Vec<(u32, u32)> = before
+        .enumerate_pixels()
+        .filter(|(x, y, pixel)| during.get_pixel(*x, *y) != *pixel)
+        .map(|(x, y, _)| (x, y))
+        .collect();
+    assert!(changed.len() > 60, "only {} pixels", changed.len());
+    let middle = changed.iter().map(|at| f64::from(at.0)).sum::<f64>() / changed.len() as f64;
+    assert!((middle - f64::from(SIZE[0]) / 2.0).abs() < 8.0, "{middle}");
+    assert!(changed.iter().all(|at| (130..176).contains(&at.1)), "around 0.85 of the height");
+}
+
+#[test]
+fn helpers_and_boxes_of_selected_things_are_drawn_when_asked_for() {
+    let view = view(&arms());
+    let mut scene = shown(&view, 0.0);
+    let mut lines = |change: &dyn Fn(&mut dragonfly_picture::scene::Scene)| {
+        change(&mut scene);
+        scene.prepare(Instant::now());
+        scene.controls.shape().lines().len() / 2
+    };
+    assert_eq!(lines(&|_| {}), 0, "nothing unless asked for");
+    let helpers = lines(&|scene| scene.look.helpers = true);
+    // Two cameras of ten lines, a mark of a circle and an arrow, a path.
+    assert_eq!(helpers, 2 * 10 + 17 + 96);
+    let selected = ThingAppearance { selected: vec!["anna".into()].into(), hovered: Some("door".into()) };
+    let boxes = lines(&|scene| {
+        scene.look.helpers = false;
+        scene.appearances.set(selected.clone());
+    });
+    assert_eq!(boxes, 2 * 12);
+}
+
+#[test]
+fn a_scene_after_a_lost_device_and_a_model_after_a_scene_are_drawn_as_before() {
+    let Some(mut studio) = studio::studio() else { return };
+    let (view, arm) = (view(&arms()), dragonfly_kit::document::arm::loaded());
+    let before = studio.render(&arm, &settings(ThroughCamera::Free, 0.0)).unwrap();
+    let first = studio.render_scene(&view, &settings(ThroughCamera::Shot, 0.5)).unwrap();
+    studio.stage().device().lose();
+    let second = studio.render_scene(&view, &settings(ThroughCamera::Shot, 0.5)).unwrap();
+    assert_eq!(difference(&first, &second), 0);
+    // A model shown after a scene is drawn as before it.
+    let after = studio.render(&arm, &settings(ThroughCamera::Free, 0.0)).unwrap();
+    assert_eq!(difference(&before, &after), 0);
+}

@@ -1,0 +1,87 @@
+//! A click on a scene means a thing and its bone; a box or a lasso means things.
+
+use super::{SIZE, arms, drawn_at, script, shown, state, view};
+use dragonfly_anim::fast::matrix::mat4;
+use dragonfly_picture::pick::Region;
+use dragonfly_picture::scene::Scene;
+use glam::{Vec2, Vec3};
+use std::time::Instant;
+
+/// Returns the pixel where a point is drawn.
+fn pixel(scene: &Scene, point: Vec3) -> [f32; 2] {
+    let at = drawn_at(scene, point).expect("in front of the camera");
+    [(at.x + 1.0) / 2.0 * SIZE[0] as f32, (1.0 - at.y) / 2.0 * SIZE[1] as f32]
+}
+
+#[test]
+fn a_click_picks_the_thing_and_the_bone_that_is_drawn_there() {
+    let view = view(&arms());
+    for seconds in [0.0_f32, 0.9] {
+        let mut scene = shown(&view, seconds);
+        let state = state(&view, f64::from(seconds));
+        for (thing, id) in [(0, "anna"), (1, "ben")] {
+            let place = state.things[thing].transform.to_matrix();
+            let pose = state.things[thing].pose.as_ref().unwrap();
+            for bone in 0..3_u32 {
+                let to_root = mat4(pose.to_root.get(bone as usize));
+                let at = pixel(&scene, place.transform_point3(to_root.transform_point3(Vec3::Y * 0.3)));
+                let picked = scene.pick_things(at);
+                let first = picked.first().unwrap_or_else(|| panic!("nothing at {at:?}"));
+                assert_eq!((&*first.thing, first.bone), (id, Some(bone)), "at {seconds}");
+            }
+        }
+        assert!(scene.pick_things([1.0, 1.0]).is_empty());
+    }
+}
+
+#[test]
+fn things_behind_each_other_are_picked_nearest_first_and_placeholders_too() {
+    let text = script(
+        r#"<role id="far" model="arm" at="0 0 -3"/><role id="lost" model="lost" at="0 0 2"/><role id="near" model="arm" at="0 0 0"/>
+        <camera id="eye" at="0 1 8" look="0 1 0"/>"#,
+        "<wait dur=\"1\"/>",
+    );
+    let mut scene = shown(&view(&text), 0.0);
+    let picked = scene.pick_things(pixel(&scene, Vec3::new(0.0, 1.0, 0.0)));
+    let ids: Vec<&str> = picked.iter().map(|picked| &*picked.thing).collect();
+    assert_eq!(ids, ["lost", "near", "far"]);
+    assert_eq!(picked[0].bone, None);
+}
+
+#[test]
+fn cameras_and_marks_are_picked_where_they_are_drawn() {
+    let view = view(&arms());
+    let mut scene = shown(&view, 0.0);
+    let door = pixel(&scene, Vec3::new(0.0, 0.0, 2.0));
+    let near = |scene: &mut Scene| {
+        scene.pick_things([door[0] + 4.0, door[1]]).first().map(|picked| picked.thing.to_string())
+    };
+    assert_eq!(near(&mut scene), None, "it is not drawn");
+    scene.look.helpers = true;
+    scene.prepare(Instant::now());
+    assert_eq!(near(&mut scene).as_deref(), Some("door"));
+}
+
+#[test]
+fn a_region_has_the_things_whose_middle_is_inside() {
+    let view = view(&arms());
+    let scene = shown(&view, 0.0);
+    let size = Vec2::new(SIZE[0] as f32, SIZE[1] as f32);
+    let ids = |region: &Region<'_>| -> Vec<String> {
+        scene.things_in(region).iter().map(|picked| picked.thing.to_string()).collect()
+    };
+    assert_eq!(ids(&Region::Box(Vec2::ZERO, size)), ["anna", "ben"]);
+    assert_eq!(ids(&Region::Box(Vec2::ZERO, size * Vec2::new(0.5, 1.0))), ["anna"]);
+    let right = [size * Vec2::new(0.5, 0.0), size * Vec2::X, size, size * Vec2::new(0.5, 1.0)];
+    assert_eq!(ids(&Region::Lasso(&right)), ["ben"]);
+}
+
+#[test]
+fn a_model_without_a_scene_has_no_things() {
+    let mut scene = Scene::new(Instant::now());
+    scene.show_model(dragonfly_kit::document::arm::loaded());
+    scene.look.viewport = [0, 0, SIZE[0], SIZE[1]];
+    scene.prepare(Instant::now());
+    assert!(scene.pick_things([160.0, 90.0]).is_empty());
+    assert!(scene.things_in(&Region::Box(Vec2::ZERO, Vec2::splat(1000.0))).is_empty());
+}
