@@ -3,6 +3,8 @@
 mod actors;
 mod errors;
 mod feet;
+mod gestures;
+mod lanes;
 mod live;
 mod oracle;
 mod pure;
@@ -13,6 +15,7 @@ mod spans;
 mod splices;
 mod times;
 mod travels;
+mod writing;
 
 use dragonfly_anim::stage::schedule::{Schedule, resolve};
 use dragonfly_anim::stage::script::{ScriptError, StageScript};
