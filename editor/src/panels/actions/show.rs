@@ -1,6 +1,6 @@
 //! The start of a frame, and a newer view of the document.
 
-use super::{drags, framing, keys, layers, playback, scope, tools, undo};
+use super::{drags, framing, keys, layers, playback, scene, scope, tools, undo};
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
@@ -50,9 +50,12 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         workspace.selections.open(done);
         workspace.trail.clear();
         workspace.compared = CompareWith::Nothing;
-        return show_model(workspace);
+        workspace.scene.reset();
+        show_model(workspace);
+        return scene::opened(workspace);
     }
     let before = workspace.model.replace(view);
+    scene::follow(workspace, answered);
     follow_bones(workspace, before.as_ref(), answered);
     playback::follow_take(workspace, before.as_ref());
     keys::keep_markers(workspace, before.as_ref());

@@ -37,6 +37,10 @@ impl Panel for Viewport {
         PanelPlace::Middle
     }
 
+    fn subject(&self) -> PanelSubject {
+        PanelSubject::Any
+    }
+
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let rect = ui.max_rect();
         requests.push(Request::Viewport(rect));
