@@ -24,6 +24,19 @@ fn first_shape_edits() -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
+/// Returns the edits of a scene's script in the first vocabulary. Each of them changes something in [`SCENE`].
+fn first_script_edits() -> Vec<String> {
+    let text = fs::read_to_string(data("journals/script-edits-1.jsonl")).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
+fn all_first_edits() -> Vec<String> {
+    [first_edits(), first_shape_edits(), first_script_edits()].concat()
+}
+
+/// A script to which the edits of scripts apply.
+const SCENE: &str = "<script version=\"1\">\n  <title text=\"The End\" dur=\"2\"/>\n</script>\n";
+
 /// Opens Fox with a journal that contains these records, and recovers the given number of steps.
 fn recovered(name: &str, records: &[(u8, &[u8])], steps: usize) -> (TestDocument, View) {
     let folder = Folder::new(name);
@@ -137,6 +150,18 @@ fn edits_of_shape_keys_of_every_version_are_replayed() {
 }
 
 #[test]
+fn edits_of_scripts_of_every_version_are_replayed() {
+    let folder = Folder::new("old-script-edits");
+    let path = folder.join("scene.xml");
+    fs::write(&path, SCENE).unwrap();
+    let records: Vec<Vec<u8>> = first_script_edits().iter().map(|edit| recorded(edit)).collect();
+    let records: Vec<(u8, &[u8])> = records.iter().map(|record| (2, &record[..])).collect();
+    let (_, view) = recovered_for(folder, path, &records, records.len());
+    let text = "<script version=\"1\">\n  <title text=\"Fin\" dur=\"3\"/>\n  <wait dur=\"1\"/>\n</script>\n";
+    assert_eq!(&*view.scene.expect("a scene").text, text);
+}
+
+#[test]
 fn a_snapshot_of_every_version_is_restored() {
     let (edits, all) = (first_edits().join(","), first_edits().len());
     let about = r#"{"version":1}"#;
@@ -153,11 +178,11 @@ fn every_edit_type_occurs_in_the_stored_records() {
     let kind = |json: &str| {
         serde_json::from_str::<serde_json::Value>(json).unwrap()["edit"].as_str().unwrap().to_owned()
     };
-    let kept: Vec<String> = first_edits().iter().chain(&first_shape_edits()).map(|edit| kind(edit)).collect();
+    let kept: Vec<String> = all_first_edits().iter().map(|edit| kind(edit)).collect();
     for kind in EDITS {
         assert!(kept.contains(&kind.name.to_owned()), "{} is not in edits-1.jsonl", kind.name);
     }
-    for edit in first_edits().into_iter().chain(first_shape_edits()) {
+    for edit in all_first_edits() {
         let value: serde_json::Value = serde_json::from_str(&edit).unwrap();
         let again = serde_json::to_value(serde_json::from_value::<Edit>(value.clone()).unwrap()).unwrap();
         for (field, was) in value.as_object().unwrap() {

@@ -248,7 +248,7 @@ fn same_slot(
 
 /// Starts with the edits that follow the file.
 fn started(new: &ModelData) -> Rebase {
-    let mut rebase = Rebase::new(ModelAdapter::of(&old()), new);
+    let mut rebase = Rebase::new(ModelAdapter::of(&old()), ModelAdapter::of(new));
     for line in EDITED {
         rebase.apply(0, &edit(line)).expect(line);
     }
@@ -266,7 +266,8 @@ fn every_kind_of_edit_does_the_same_in_a_version_with_everything_in_another_orde
     let (mut random, bones) = (Random::new(seed(70)), references());
     let new = new(&same_names);
     let start = started(&new);
-    for kind in EDITS {
+    // A model has no text.
+    for kind in EDITS.iter().filter(|kind| kind.name != "script") {
         let mut applied = 0;
         for _ in 0..120 {
             let edit = (kind.arbitrary)(&mut Arbitrary::new(&mut || random.bits(), 3, &bones));
@@ -385,7 +386,7 @@ fn unfit_of(new: &ModelData, lines: &[&str]) -> (Vec<String>, Rebased) {
 fn what_does_not_fit_is_listed_with_its_reason_and_later_edits_are_still_applied() {
     let mut changed = new(&|name| if name == "hand.R" { "hand".to_owned() } else { name.to_owned() });
     changed.animation.takes.retain(|take| take.name != "run");
-    let mut rebase = Rebase::new(ModelAdapter::of(&old()), &changed);
+    let mut rebase = Rebase::new(ModelAdapter::of(&old()), ModelAdapter::of(&changed));
     let cases = [
         (
             r#"{"edit":"set","take":"walk","time":0.5,"poses":[{"bone":"hand.R","translation":[1,0,0]}]}"#,
@@ -457,7 +458,7 @@ fn events_that_another_program_added_stay() {
     let (step, other) = (r#"{"time":0.25,"name":"step"}"#, r#"{"time":0.75,"name":"other"}"#);
     let old = with_event(step, "run", old());
     let new = with_event(&format!("{step},{other}"), "run", new(&same_names));
-    let mut rebase = Rebase::new(ModelAdapter::of(&old), &new);
+    let mut rebase = Rebase::new(ModelAdapter::of(&old), ModelAdapter::of(&new));
     let line = r#"{"edit":"set_events","take":"run","events":[{"time":0.5,"name":"jump"}]}"#;
     rebase.apply(0, &edit(line)).expect("events");
     let done = rebase.finish();

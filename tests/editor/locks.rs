@@ -205,7 +205,7 @@ const OF_WHOLE_TAKES: [&str; 23] = [
 ];
 
 /// Kinds of edits for which the small model has no spline, no travel, and no shape key.
-const NOT_HERE: [&str; 7] = [
+const NOT_HERE: [&str; 8] = [
     "set_tangents",
     "set_many_tangents",
     "restore_travel",
@@ -213,6 +213,7 @@ const NOT_HERE: [&str; 7] = [
     "set_shape_keys",
     "offset_shapes",
     "pend_shapes",
+    "script",
 ];
 
 /// Returns a model of three bones with two takes and a pending pose.

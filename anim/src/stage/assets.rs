@@ -6,12 +6,19 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// Length in seconds of a take whose model is missing.
+pub const UNKNOWN_TAKE: f64 = 1.0;
+
+/// Speed in meters per second of a walk at the stride of a take whose model is missing: that of a person who is not in a hurry.
+pub const UNKNOWN_SPEED: f64 = 1.4;
+
 /// The models, lines and sounds that scripts may name, by the text with which scripts name them.
 #[derive(Clone, Debug, Default)]
 pub struct StageAssets {
     models: BTreeMap<String, Arc<StageModel>>,
     lines: BTreeMap<String, Arc<[DVec3]>>,
     sounds: BTreeMap<String, StageTime>,
+    allows_missing: bool,
 }
 
 impl StageAssets {
@@ -25,9 +32,31 @@ impl StageAssets {
         self.lines.insert(source.into(), points.into());
     }
 
+    /// Removes all lines.
+    pub fn clear_lines(&mut self) {
+        self.lines.clear();
+    }
+
     /// Adds the length of a sound under the name that the attribute `src` has.
     pub fn add_sound(&mut self, source: impl Into<String>, length: StageTime) {
         self.sounds.insert(source.into(), length);
+    }
+
+    /// Makes scripts that name other models than these plannable: their things stand and move without a pose, their takes last
+    /// [`UNKNOWN_TAKE`], they walk with [`UNKNOWN_SPEED`], and their bones are where the things are. For scenes whose models are
+    /// still being read, or are lost.
+    pub fn allow_missing_models(&mut self) {
+        self.allows_missing = true;
+    }
+
+    /// Returns whether scripts may name other models.
+    pub fn allows_missing_models(&self) -> bool {
+        self.allows_missing
+    }
+
+    /// Removes the model called `source`.
+    pub fn remove_model(&mut self, source: &str) {
+        self.models.remove(source);
     }
 
     /// Returns the model called `source`.

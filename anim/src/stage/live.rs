@@ -2,6 +2,7 @@
 
 use super::assets::StageAssets;
 use super::plan::StagePlan;
+use super::project::StageProject;
 use super::script::{ScriptError, StageScript};
 use std::sync::Arc;
 
@@ -16,7 +17,17 @@ pub struct LiveStage {
 impl LiveStage {
     /// Reads and plans a new text. Returns whether it worked; otherwise the plan stays the one before, and [`Self::errors`] has the reasons.
     pub fn update(&mut self, text: impl Into<Arc<str>>, assets: &StageAssets) -> bool {
-        let planned = StageScript::read(text).and_then(|script| {
+        self.update_of(text, None, assets)
+    }
+
+    /// Reads and plans a new text of a script of a project, as [`Self::update`] does.
+    pub fn update_of(
+        &mut self,
+        text: impl Into<Arc<str>>,
+        project: Option<&StageProject>,
+        assets: &StageAssets,
+    ) -> bool {
+        let planned = StageScript::read_of(text, project).and_then(|script| {
             let plan = StagePlan::new(&script, assets)?;
             Ok((script, plan))
         });

@@ -81,6 +81,12 @@ impl BesideStamps {
         self.0.insert(path, stamp);
     }
 
+    /// Returns the stamp of a file.
+    pub(super) fn of(&self, path: &Path) -> Option<&FileStamp> {
+        let path = path.canonicalize().ok()?;
+        self.0.get(&path)
+    }
+
     /// Adds the files of `other`, and replaces their stamps.
     pub(super) fn extend(&mut self, other: Self) {
         self.0.extend(other.0);

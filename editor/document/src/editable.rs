@@ -1,13 +1,17 @@
 //! A file that is edited: its data, and everything needed to save it without changing the rest.
 
-use super::adapter::{ModelAdapter, TakeId, TakeVersions};
+use super::adapter::{ModelAdapter, TakeId, TakeVersions, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
+use super::edited_content::{EditedContent, plan_of_texts};
+use super::images::ImageSurvey;
 use super::import::ImportDoor;
 use super::source::{LoadError, Source, file_name};
+use super::text_source::{ReadTexts, is_scene, read_texts};
 use super::unused;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
+use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::buffer_of_save;
 use dragonfly_anim::format::{
@@ -38,8 +42,8 @@ pub struct Editable {
     pub warnings: Vec<String>,
     /// Units, axes and frame rate that the user chose for the file.
     conventions: Conventions,
-    /// The opened file, which later saves start from.
-    file: Arc<EditableFile>,
+    /// What is edited, as it is in the files.
+    content: EditedContent,
     /// State of the file when it was last read or saved.
     stamp: Option<FileStamp>,
     /// State of its buffers in other files when they were last read or saved.
@@ -56,6 +60,9 @@ pub type WrittenFile = (PathBuf, Vec<u8>);
 impl Editable {
     /// Opens `source` to edit it without decoding textures.
     pub fn open(source: &Source, cancel: &Cancel) -> Result<Self, LoadError> {
+        if let Some(path) = source.path().filter(|path| is_scene(path)) {
+            return Ok(Self::of_texts(read_texts(path)?));
+        }
         let (name, bytes, path) = match source {
             Source::BuiltIn => ("dragonfly.glb".to_owned(), DRAGONFLY_GLB.to_vec(), None),
             Source::File(path) | Source::FileAs(path, _) => {
@@ -85,14 +92,14 @@ impl Editable {
         warnings.extend(imported.notes);
         let on_disk = Arc::clone(&model);
         let beside = read_once.as_ref().map(ReadOnce::stamps).unwrap_or_default();
-        let file = Arc::new(file);
+        let content = EditedContent::Model(Arc::new(file));
         Ok(Self {
             title: source.title(),
             path,
             model,
             warnings,
             conventions,
-            file,
+            content,
             stamp,
             beside,
             on_disk,
@@ -118,7 +125,7 @@ impl Editable {
             model: Arc::clone(&loaded.model),
             warnings: loaded.warnings.iter().chain(&loaded.notes).cloned().collect(),
             conventions,
-            file: Arc::new(file),
+            content: EditedContent::Model(Arc::new(file)),
             stamp,
             beside: door.map(ReadOnce::stamps).unwrap_or_default(),
             on_disk: Arc::clone(&loaded.model),
@@ -126,17 +133,67 @@ impl Editable {
         })
     }
 
-    /// Returns what saving the takes of `adapter` would write.
+    /// Returns texts to edit, as they were read.
+    pub(super) fn of_texts(read: ReadTexts) -> Self {
+        let ReadTexts { path, texts, stamp, beside, warnings } = read;
+        let model = Arc::new(ModelData::default());
+        Self {
+            title: file_name(&path),
+            path: Some(path),
+            on_disk: Arc::clone(&model),
+            model,
+            warnings,
+            conventions: Conventions::default(),
+            content: EditedContent::Texts(texts),
+            stamp,
+            beside,
+            places: None,
+        }
+    }
+
+    /// Returns the model as it was read, without its images.
+    pub(super) fn loaded(&self) -> LoadedModel {
+        LoadedModel {
+            conversion: Default::default(),
+            title: self.title.clone(),
+            path: self.path.clone(),
+            format: self.format(),
+            model: Arc::clone(&self.model),
+            bounds: Bounds::of_points(&[]),
+            images: ImageSurvey::default(),
+            warnings: self.warnings.clone(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// Returns the unchanged takes and texts as they are in the file.
+    pub fn adapter(&self) -> ModelAdapter {
+        ModelAdapter::of(&self.model).with_texts(self.texts())
+    }
+
+    /// Returns the texts as they are in the files; none for a model.
+    pub fn texts(&self) -> TextFiles {
+        self.content.texts()
+    }
+
+    /// Returns what saving the takes and texts of `adapter` would write.
     pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, ExportError> {
+        let file = match &self.content {
+            EditedContent::Model(file) => file,
+            EditedContent::Texts(texts) => return Ok(plan_of_texts(texts, adapter)),
+        };
         let takes = adapter.slots().iter().zip(adapter.saved_takes());
         let takes: Vec<EditedTake> =
             takes.map(|(slot, take)| EditedTake { origin: self.place(slot), take }).collect();
-        self.file.plan_with_skeleton(&self.on_disk, adapter.skeleton(), &takes)
+        file.plan_with_skeleton(&self.on_disk, adapter.skeleton(), &takes)
     }
 
     /// Returns what removing the unused data of earlier saves would write.
     pub fn compact(&self) -> Result<SavePlan, ExportError> {
-        self.file.compact(&self.on_disk)
+        match &self.content {
+            EditedContent::Model(file) => file.compact(&self.on_disk),
+            EditedContent::Texts(texts) => Ok(plan_of_texts(texts, &self.adapter())),
+        }
     }
 
     /// Returns the index of a take among the animations of the file.
@@ -162,14 +219,20 @@ impl Editable {
         }
         let mut files: Vec<WrittenFile> =
             beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
-        files.extend(self.taken_along(folder)?);
+        let along = self.taken_along(folder)?;
+        files.extend(
+            along
+                .into_iter()
+                .filter(|(path, _)| !files.iter().any(|(own, _)| own == path))
+                .collect::<Vec<_>>(),
+        );
         files.push((output.to_path_buf(), main.bytes.clone()));
         Ok(files)
     }
 
     /// Returns whether the model needs other files next to it after the save of `plan`.
     pub fn needs_others(&self, plan: &SavePlan) -> bool {
-        plan.files.len() > 1 || !self.file.neighbors().is_empty()
+        plan.files.len() > 1 || !self.content.neighbors().is_empty()
     }
 
     /// Returns the files that the model needs and that are missing in `folder`.
@@ -180,7 +243,7 @@ impl Editable {
         }
         let door = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
         let mut found = Vec::new();
-        for name in self.file.neighbors() {
+        for name in self.content.neighbors() {
             let target = folder.join(&name);
             // A file that cannot be read was a warning when the model was opened.
             let Ok(bytes) = door.read(&name, FILE_BYTES) else { continue };
@@ -225,7 +288,7 @@ impl Editable {
 
     /// Removes the buffer files of earlier saves that nothing uses any more. Returns their paths.
     pub fn remove_unused(&self) -> Vec<PathBuf> {
-        self.path.as_deref().map(|path| unused::remove(path, &self.file.neighbors())).unwrap_or_default()
+        self.path.as_deref().map(|path| unused::remove(path, &self.content.neighbors())).unwrap_or_default()
     }
 
     /// Returns whether this is the path of the opened file.
@@ -233,15 +296,18 @@ impl Editable {
         self.path.as_deref().is_some_and(|own| same_file(own, path))
     }
 
-    /// Returns the format of the file.
-    pub(super) fn format(&self) -> Format {
-        self.file.format()
+    /// Returns the format of the file; `None` for texts.
+    pub(super) fn format(&self) -> Option<Format> {
+        match &self.content {
+            EditedContent::Model(file) => Some(file.format()),
+            EditedContent::Texts(_) => None,
+        }
     }
 
     /// Returns the file extension.
     pub fn ending(&self) -> String {
         let ending = self.path.as_deref().and_then(|path| path.extension()?.to_str().map(str::to_owned));
-        ending.unwrap_or_else(|| self.file.format().extension().to_owned())
+        ending.unwrap_or_else(|| self.format().map_or("xml", |format| format.extension()).to_owned())
     }
 
     /// Returns the state of the file when it was last read or saved.
@@ -281,10 +347,28 @@ impl Editable {
         let mut saved = FilesSaved::default();
         for (path, bytes) in &files {
             make_folder(path)?;
-            let options = SaveOptions::default();
+            let old = self.beside.of(path).filter(|_| how.overwrite == Overwrite::AsRead);
+            let is_new_text =
+                matches!(&self.content, EditedContent::Texts(_)) && how.overwrite == Overwrite::AsRead;
+            let expected = match old {
+                Some(stamp) => ExpectedFile::Stamp(stamp),
+                // A text that the project got since it was opened.
+                None if is_new_text => ExpectedFile::Nothing,
+                None => ExpectedFile::Anything,
+            };
+            // A text of a project has versions as the project has.
+            let versions = how.versions.filter(|_| matches!(self.content, EditedContent::Texts(_)));
+            let options = SaveOptions { expected, versions };
             let done = save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
             beside.add(done.path, done.stamp);
             saved.files.push(path.clone());
+        }
+        if how.overwrite == Overwrite::AsRead && how.becomes && self.has_unchanged_main(&main, &bytes) {
+            self.beside.extend(beside);
+            saved.bytes = bytes.len();
+            saved.files.push(main);
+            self.content = EditedContent::Texts(adapter.texts().clone());
+            return Ok(saved);
         }
         let expected = match (how.overwrite, &self.stamp) {
             (Overwrite::AsRead, Some(stamp)) => ExpectedFile::Stamp(stamp),
@@ -311,16 +395,30 @@ impl Editable {
                     .notices
                     .push(format!("the saved file cannot be edited further: {reason}; open it again"));
             }
-            saved.notices.extend(unused::notice(&main, &self.file.neighbors()));
+            saved.notices.extend(unused::notice(&main, &self.content.neighbors()));
         }
         Ok(saved)
     }
 
+    /// Returns whether a save writes other texts and leaves the main one, at this path, as it is.
+    pub(super) fn has_unchanged_main(&self, path: &Path, bytes: &[u8]) -> bool {
+        let EditedContent::Texts(texts) = &self.content else { return false };
+        let is_same = texts.main().is_some_and(|text| text.as_bytes() == bytes);
+        texts.list().len() > 1 && is_same && self.is_own(path)
+    }
+
     /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
+        let format = match &self.content {
+            EditedContent::Model(file) => file.format(),
+            EditedContent::Texts(_) => {
+                self.content = EditedContent::Texts(adapter.texts().clone());
+                return Ok(());
+            }
+        };
         let door = self.path.as_deref().and_then(|path| ReadOnce::of(path).ok());
-        let file = opened(self.file.format(), &self.title, bytes, door.as_ref(), self.conventions);
-        self.file = Arc::new(file.map_err(|error| error.to_string())?);
+        let file = opened(format, &self.title, bytes, door.as_ref(), self.conventions);
+        self.content = EditedContent::Model(Arc::new(file.map_err(|error| error.to_string())?));
         self.beside.extend(door.map(|door| door.stamps()).unwrap_or_default());
         let skeleton = Arc::clone(adapter.skeleton());
         let shift = BoneShift::between(&self.model.animation.skeleton, &skeleton);

@@ -106,7 +106,7 @@ pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, FileAccessError> {
 }
 
 /// Splits `name` into parts that lead only downwards.
-fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
+pub(crate) fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
     let refuse = |reason| Err(FileAccessError::Name(reason));
     if name.is_empty() {
         return refuse("it is empty");

@@ -1,7 +1,7 @@
 //! Undo and redo of every edit, as a list of steps.
 
 use super::about::about;
-use super::adapter::{EditError, Inverse, ModelAdapter, ValueDrag};
+use super::adapter::{EditError, Inverse, ModelAdapter, TextFiles, ValueDrag};
 use super::base_skeleton::BaseSkeleton;
 use super::edit::Edit;
 use super::step_amount::{PoseBefore, StepAmount};
@@ -78,6 +78,8 @@ pub struct Edited {
     drag: Option<ValueDrag>,
     /// The skeleton before the first step.
     base: BaseSkeleton,
+    /// The texts before the first step.
+    base_texts: TextFiles,
 }
 
 impl Edited {
@@ -90,6 +92,7 @@ impl Edited {
     /// Creates an empty history that starts with a skeleton which edits may have changed before.
     pub(super) fn started(adapter: ModelAdapter, base: BaseSkeleton) -> Self {
         Self {
+            base_texts: adapter.texts().clone(),
             adapter,
             steps: VecDeque::new(),
             done: 0,
@@ -107,6 +110,11 @@ impl Edited {
     /// Returns the skeleton before the first step.
     pub(super) fn base_skeleton(&self) -> &BaseSkeleton {
         &self.base
+    }
+
+    /// Returns the texts before the first step.
+    pub(super) fn base_texts(&self) -> &TextFiles {
+        &self.base_texts
     }
 
     /// Returns the takes as they are now.
@@ -336,6 +344,9 @@ impl Edited {
             let Some(oldest) = self.steps.pop_front() else { return };
             if let Edit::AddRootBone(edit) = &oldest.edit {
                 self.base.start_with(&edit.name);
+            }
+            if let Edit::EditScript(edit) = &oldest.edit {
+                self.base_texts.edit(edit);
             }
             self.bytes -= oldest.bytes;
             self.done -= 1;

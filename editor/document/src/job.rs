@@ -3,6 +3,7 @@
 
 use super::clip_news::ClipNews;
 use super::export::{ExportOrder, ExportReport};
+use super::open_scene::SceneModelNews;
 use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
@@ -33,6 +34,8 @@ pub(super) enum JobNews {
     Exported(Box<(ExportOrder, Result<ExportReport, String>)>),
     /// The defects of a take.
     Checked(Result<CheckedTake, String>),
+    /// A model of the open scene was read.
+    SceneModel(Box<SceneModelNews>),
     /// The folder of the pose library after an order.
     Poses(Result<PoseFolder, String>),
 }

@@ -1,12 +1,13 @@
 //! Opens a model for the window and for the command line: reads its bytes, imports its data, surveys its images.
 //! Loading reports its progress and can be cancelled.
 
-use super::adapter::unused_layers;
+use super::adapter::{ModelAdapter, TextFiles, unused_layers};
 use super::beside::ReadOnce;
 use super::images::ImageSurvey;
 use super::import;
 use super::source::{LoadError, Source};
-use super::{Cancel, Editable, FileAccessError, LoadStage, LoadedModel, Progress, read_file};
+use super::text_source::{ReadTexts, is_scene, read_texts};
+use super::{Cancel, Editable, FileAccessError, Folder, LoadStage, LoadedModel, Progress, read_file};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::limits::FILE_BYTES;
@@ -22,12 +23,15 @@ pub struct OpenedModel {
     pub loaded: LoadedModel,
     /// Its file, from the same bytes; or the reason why it cannot be saved.
     pub editable: Result<Editable, String>,
+    /// The texts of a scene or project, whose model is empty; none for a model.
+    pub texts: TextFiles,
 }
 
 impl From<LoadedModel> for OpenedModel {
     /// Makes an opened model that has no file and cannot be saved.
     fn from(loaded: LoadedModel) -> Self {
-        Self { loaded, editable: Err("it was not read from a file".to_owned()) }
+        let editable = Err("it was not read from a file".to_owned());
+        Self { loaded, editable, texts: TextFiles::default() }
     }
 }
 
@@ -59,11 +63,40 @@ pub fn open_model(
     cancel: &Cancel,
 ) -> Result<OpenedModel, LoadError> {
     progress(Progress { stage: LoadStage::Reading, done: 0.0 });
+    if let Some(path) = source.path().filter(|path| is_scene(path)) {
+        return Ok(OpenedModel::of_texts(read_texts(path)?));
+    }
     let read = Read::file(source)?;
     let loaded = read.load(progress, cancel)?;
     let stamp = read.stamp()?;
     let editable = Editable::of(source, read.bytes, stamp, &loaded, read.door.as_ref());
-    Ok(OpenedModel { loaded, editable })
+    Ok(OpenedModel { loaded, editable, texts: TextFiles::default() })
+}
+
+/// Loads the model called `name` in `folder`, for a scene. It is not edited.
+pub(super) fn load_inside(folder: &Folder, name: &str, cancel: &Cancel) -> Result<LoadedModel, LoadError> {
+    let title = name.rsplit('/').next().unwrap_or(name).to_owned();
+    let wrong =
+        |error: FileAccessError| LoadError::Format { title: title.clone(), reason: error.to_string() };
+    let path = folder.path_of(name).map_err(wrong)?;
+    let bytes = folder.read(name, FILE_BYTES).map_err(wrong)?;
+    let door = Some(ReadOnce::of(&path).map_err(wrong)?);
+    let read = Read { source: &Source::File(path), bytes, before: None, door };
+    read.load(&mut |_| {}, cancel)
+}
+
+impl OpenedModel {
+    /// Returns its unchanged takes and texts.
+    pub(super) fn adapter(&self) -> ModelAdapter {
+        ModelAdapter::of(&self.loaded.model).with_texts(self.texts.clone())
+    }
+
+    /// Returns the document of texts that were read.
+    fn of_texts(read: ReadTexts) -> Self {
+        let texts = read.texts.clone();
+        let editable = Editable::of_texts(read);
+        Self { loaded: editable.loaded(), editable: Ok(editable), texts }
+    }
 }
 
 /// The bytes of a model.

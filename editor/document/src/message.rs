@@ -38,6 +38,8 @@ pub enum DocumentMessage {
     Quit,
     /// Discards the unsaved work: its journal goes to the trash folder when the document is closed.
     DoNotSave,
+    /// Shows another script of the open project, by the name of its file.
+    ShowScript(String),
     /// Checks whether another program changed the file.
     LookAtFile,
     /// Searches for unsaved work of earlier sessions, and replies also if there is none.

@@ -1,15 +1,18 @@
 //! The open document: a model as it was read, its edited takes, its file, its journal.
 
-use super::adapter::{EditError, ModelAdapter};
+use super::adapter::{EditError, TextFiles};
 use super::edit::Edit;
 use super::editable::Editable;
 use super::history::{Edited, Gesture};
+use super::job::JobNews;
 use super::journal_writer::JournalWriter;
 use super::offer::recovered;
+use super::open_scene::OpenScene;
 use super::recorded::{EditsOrigin, Recorded, Snapshot};
 use super::replay::Replayed;
 use super::{FileView, HistoryView, LoadedModel, OpenedModel, Source, View};
 use dragonfly_anim::data::Take;
+use dragonfly_runtime::Address;
 use dragonfly_store::{Autosave, FileStamp, Journal};
 use std::sync::Arc;
 use std::time::Instant;
@@ -36,7 +39,11 @@ pub enum Change {
 pub(super) struct Open {
     /// The model as it was read.
     opened: Arc<LoadedModel>,
-    /// The same with the skeleton as it is now.
+    /// The texts as they were read; none for a model.
+    texts: TextFiles,
+    /// What a script shows; `None` for a model.
+    pub(super) scene: Option<OpenScene>,
+    /// The model with the skeleton as it is now.
     pub(super) loaded: Arc<LoadedModel>,
     pub(super) edited: Edited,
     /// The published history; replaced only when steps change.
@@ -56,13 +63,16 @@ pub(super) struct Open {
 
 impl Open {
     pub(super) fn new(opened: OpenedModel, autosave: Option<Autosave>) -> Self {
-        let OpenedModel { loaded, editable } = opened;
+        let adapter = opened.adapter();
+        let OpenedModel { loaded, editable, texts } = opened;
         let file = FileView { title: loaded.title.clone(), path: loaded.path.clone() };
         let source = loaded.path.is_none().then_some(Source::BuiltIn);
         let conventions = loaded.conversion.chosen();
         let loaded = Arc::new(loaded);
         let mut open = Self {
-            edited: Edited::new(ModelAdapter::of(&loaded.model)),
+            edited: Edited::new(adapter),
+            scene: loaded.path.as_deref().filter(|_| !texts.is_empty()).map(OpenScene::of),
+            texts,
             opened: Arc::clone(&loaded),
             loaded,
             history: Arc::default(),
@@ -86,6 +96,18 @@ impl Open {
     /// Returns the model as it was read.
     pub(super) fn opened(&self) -> &Arc<LoadedModel> {
         &self.opened
+    }
+
+    /// Returns the texts as they were read; none for a model.
+    pub(super) fn texts_as_read(&self) -> &TextFiles {
+        &self.texts
+    }
+
+    /// Plans the scene again where its text or its models changed, and starts to read models that it names.
+    pub(super) fn update_scene(&mut self, document: &Address<JobNews>) {
+        if let Some(scene) = &mut self.scene {
+            scene.update(self.edited.adapter().texts(), document);
+        }
     }
 
     /// Starts with the edits of another version of the model.
@@ -253,7 +275,8 @@ impl Open {
         let file = Arc::clone(&self.file);
         let view = View::of(generation, Arc::clone(&self.loaded), self.edited.adapter(), history, file);
         let opened = Arc::clone(&self.opened);
-        View { opened, is_unrecorded: self.journal_writer.has_gap(), ..view }
+        let scene = self.scene.as_ref().map(OpenScene::view);
+        View { opened, scene, is_unrecorded: self.journal_writer.has_gap(), ..view }
     }
 
     /// Updates the published history and, where an edit changed the skeleton, the published model. During a gesture its step stays the

@@ -6,6 +6,7 @@ use super::handle::DocumentHandle;
 use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
+use super::open_scene::{OpenScene, SceneModelNews};
 use super::pose_library::PoseFiles;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
 use super::retarget_order::Retargeting;
@@ -352,6 +353,10 @@ impl Document {
             self.reply(DocumentReply::FileChanged(state));
         }
         self.noticed = state;
+        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
+        if scene.is_some_and(OpenScene::look_again) {
+            self.changed();
+        }
     }
 
     /// Marks the state as changed. It is published once all messages of this iteration are handled.
@@ -375,11 +380,34 @@ impl Document {
         due
     }
 
+    /// Shows another script of the open project.
+    pub(super) fn show_script(&mut self, name: &str) {
+        let is_there = self.open.as_mut().is_some_and(|open| {
+            let texts = open.edited.adapter().texts();
+            open.scene.as_mut().is_some_and(|scene| scene.show(name, texts))
+        });
+        match is_there {
+            true => self.changed(),
+            false => self.reply(DocumentReply::Refused(format!("The project has no script {name}"))),
+        }
+    }
+
+    /// Takes a model of the open scene that was read.
+    pub(super) fn scene_model_read(&mut self, news: SceneModelNews) {
+        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
+        if scene.is_some_and(|scene| scene.take(news)) {
+            self.changed();
+        }
+    }
+
     /// Publishes the newest state, if it changed or a sender waits for an answer.
     pub(super) fn publish(&mut self) {
         let (changed, answers) = (std::mem::take(&mut self.changed), std::mem::take(&mut self.answers));
         if !changed && !answers {
             return;
+        }
+        if let Some(open) = self.open.as_mut().filter(|_| changed) {
+            open.update_scene(&self.own);
         }
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
         let view = View { answered: self.answered, ..view };

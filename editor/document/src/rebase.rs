@@ -11,11 +11,12 @@ use super::edit::mapped_bones::MappedBones;
 use super::edit::mapped_places::nth_of_name;
 use super::edit::reference_map::ReferenceMap;
 use super::edit::{
-    BonePose, BoneRef, Edit, MeshRef, Misfit, PendShapes, Property, SetPending, ShapeRef, ShapeWeight,
-    TakeRef,
+    BonePose, BoneRef, Edit, EditScript, MeshRef, Misfit, PendShapes, Property, SetPending, ShapeRef,
+    ShapeWeight, TakeRef,
 };
 use super::history::Edited;
-use dragonfly_anim::data::{ModelData, Skeleton};
+use super::merged_texts::MergedTexts;
+use dragonfly_anim::data::Skeleton;
 use serde::{Serialize, Serializer};
 use std::collections::{HashMap, HashSet};
 use std::fmt;
@@ -77,17 +78,19 @@ pub struct Rebase {
     /// The skeletons between which `bones` are paired.
     skeletons: [Arc<Skeleton>; 2],
     unfit: Vec<UnfitEdit>,
+    texts: MergedTexts,
 }
 
 impl Rebase {
     /// Starts with the old version as it is before the first edit, and with a new version as it was read.
-    pub fn new(old: ModelAdapter, new: &ModelData) -> Self {
-        let new = Edited::new(ModelAdapter::of(new));
+    pub fn new(old: ModelAdapter, new: ModelAdapter) -> Self {
+        let texts = MergedTexts::between(old.texts(), new.texts());
+        let new = Edited::new(new);
         let skeletons = [&old, new.adapter()].map(|adapter| Arc::clone(adapter.skeleton()));
         let bones = Arc::new(MappedBones::between(&skeletons[0], &skeletons[1]));
         let mut takes = HashMap::new();
         pair_by_name(&mut takes, [&old, new.adapter()], |_| true, |_| true);
-        Self { old, new, takes, bones, skeletons, unfit: Vec::new() }
+        Self { old, new, takes, bones, skeletons, unfit: Vec::new(), texts }
     }
 
     /// Returns the old version as it is now.
@@ -104,6 +107,10 @@ impl Rebase {
     pub fn apply(&mut self, number: usize, edit: &Edit) -> Result<(), EditError> {
         let mut after = self.old.clone();
         after.apply(edit)?;
+        if let Edit::EditScript(edit) = edit {
+            self.apply_to_text(number, edit, after);
+            return Ok(());
+        }
         self.pair_bones();
         let mut map =
             ReferenceMap::new([&self.old, self.new.adapter()], &self.takes, &self.bones, edit.take());
@@ -129,6 +136,21 @@ impl Rebase {
         Ok(())
     }
 
+    /// Applies an edit of a text to the new version; the old one is `after` it.
+    fn apply_to_text(&mut self, number: usize, edit: &EditScript, after: ModelAdapter) {
+        let new = self.new.adapter().texts();
+        let reason = match self.texts.mapped(edit, self.old.texts(), after.texts(), new) {
+            Ok(None) => None,
+            Ok(Some(mapped)) => self.new.ask(mapped.into(), None).err().map(Misfit::Refused),
+            Err(reason) => Some(reason),
+        };
+        if let Some(reason) = reason {
+            let edit = described(&self.old, &edit.clone().into());
+            self.unfit.push(UnfitEdit { number, edit, applied_in_part: false, reasons: vec![reason] });
+        }
+        self.old = after;
+    }
+
     /// Ends it.
     pub fn finish(self) -> Rebased {
         Rebased { edited: self.new, unfit: self.unfit }
@@ -151,7 +173,7 @@ impl Rebase {
 }
 
 /// Returns a newer version of a model with the unsaved steps of a history.
-pub(super) fn rebased(edited: &Edited, new: &ModelData) -> Rebased {
+pub(super) fn rebased(edited: &Edited, new: ModelAdapter) -> Rebased {
     let unsaved = edited.unsaved();
     let mut start = edited.clone();
     start.go_to(unsaved.steps.start);

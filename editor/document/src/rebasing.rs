@@ -27,7 +27,7 @@ impl Document {
     pub(super) fn rebase(&mut self, opened: OpenedModel) {
         let Some(mut old) = self.open.take() else { return };
         (self.waiting, self.noticed) = (None, None);
-        let Rebased { edited, unfit } = rebased(&old.edited, &opened.loaded.model);
+        let Rebased { edited, unfit } = rebased(&old.edited, opened.adapter());
         let mut open = Open::new(opened, self.autosave.clone());
         open.start_with(edited);
         if let Some(autosave) = &self.autosave {

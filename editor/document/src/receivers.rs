@@ -47,6 +47,7 @@ impl Document {
                     open.unwanted = true;
                 }
             }
+            DocumentMessage::ShowScript(name) => self.show_script(&name),
             DocumentMessage::LookAtFile => self.look_at_file(),
             DocumentMessage::Search => {
                 self.searched = true;
@@ -97,6 +98,7 @@ impl Receiver for JobReceiver {
             JobNews::Exported(done) => document.exported(*done),
             JobNews::Clips(news) => document.clip_news(news, thread.now()),
             JobNews::Checked(result) => document.checked(result),
+            JobNews::SceneModel(news) => document.scene_model_read(*news),
             JobNews::Poses(news) => document.poses_news(news),
         }
     }

@@ -129,6 +129,9 @@ pub(super) struct Snapshot {
     /// The skeleton with which the history starts, where edits added root bones; otherwise it is that of the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) skeleton: Option<BaseSkeleton>,
+    /// The texts with which the history starts, as names and contents; none for a model, and where it starts with those of the file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) texts: Vec<(String, String)>,
 }
 
 impl Snapshot {
@@ -150,7 +153,9 @@ impl Snapshot {
         let steps = steps.iter().map(|step| step.edit.clone()).collect();
         let skeleton = Some(edited.base_skeleton()).filter(|base| base.has_roots()).cloned();
         let (saved, has_base) = (edited.saved(), base.is_some());
-        let snapshot = Self { about, steps, done, saved, has_base, skeleton };
+        let texts = edited.base_texts().list().iter().filter(|_| has_base);
+        let texts = texts.map(|file| (file.name.to_string(), file.text.to_string())).collect();
+        let snapshot = Self { about, steps, done, saved, has_base, skeleton, texts };
         let mut bytes = vec![0; 4];
         serde_json::to_writer(&mut bytes, &snapshot)?;
         let length = u32::try_from(bytes.len() - 4).unwrap_or(u32::MAX);

@@ -180,8 +180,9 @@ impl Document {
         let Some(open) = &mut self.open else { return };
         let Resumed { journal, entries, cut } = resumed;
         let model = &open.opened().model;
-        let replayed = replay(model, &entries);
-        let fits = replayed.is_of(model) && found.file == dragonfly_store::DocumentFileState::Same;
+        let replayed = replay(model, open.texts_as_read(), &entries);
+        let fits = replayed.is_of(model, open.texts_as_read())
+            && found.file == dragonfly_store::DocumentFileState::Same;
         if !wanted && (replayed.stopped.is_some() || !fits || !replayed.edited.is_saved()) {
             let text = format!(
                 "The history of {} belongs to other contents of the file; a new history was started",

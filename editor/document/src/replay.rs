@@ -1,6 +1,6 @@
 //! Applies the edits of a journal again.
 
-use super::adapter::{ModelAdapter, TakeId};
+use super::adapter::{ModelAdapter, TakeId, TextFile, TextFiles};
 use super::alike::alike;
 use super::base;
 use super::base_skeleton::BaseSkeleton;
@@ -20,19 +20,27 @@ pub(super) struct Replayed {
     pub(super) edited: Edited,
     /// The takes with which the history starts; those of the file where the journal has none.
     pub(super) base: Option<Arc<[Arc<Take>]>>,
-    /// The takes at the last save, where the journal recorded one.
-    at_save: Option<Vec<(TakeId, Arc<Take>)>>,
+    /// The takes and the texts at the last save, where the journal recorded one.
+    at_save: Option<SavedContent>,
     /// The reason why later edits could not be applied; `None` where all were.
     pub(super) stopped: Option<String>,
 }
 
+/// What a save wrote.
+#[derive(Clone, Debug)]
+struct SavedContent {
+    takes: Vec<(TakeId, Arc<Take>)>,
+    texts: TextFiles,
+}
+
 impl Replayed {
-    /// Returns whether the takes of the last save are those of the file `model`.
-    pub(super) fn is_of(&self, model: &ModelData) -> bool {
+    /// Returns whether the takes and the texts of the last save are those of the file, which are given.
+    pub(super) fn is_of(&self, model: &ModelData, texts: &TextFiles) -> bool {
         let takes = &model.animation.takes;
         match &self.at_save {
-            Some(saved) => {
-                saved.len() == takes.len()
+            Some(SavedContent { takes: saved, texts: saved_texts }) => {
+                saved_texts == texts
+                    && saved.len() == takes.len()
                     && saved
                         .iter()
                         .zip(takes)
@@ -44,18 +52,19 @@ impl Replayed {
 
     /// Returns the index of each take in the file, if the file is the last save; `None` where the history has no save.
     pub(super) fn places(&self) -> Option<HashMap<TakeId, usize>> {
-        let saved = self.at_save.as_deref();
+        let saved = self.at_save.as_ref().map(|saved| &*saved.takes);
         let saved = saved.or(self.base.as_ref().map(|_| &[][..]))?;
         Some(saved.iter().enumerate().map(|(place, (id, _))| (*id, place)).collect())
     }
 }
 
-/// Applies all entries again, to the takes in the journal or to those of `model`.
-pub(super) fn replay(model: &ModelData, entries: &[JournalEntry]) -> Replayed {
+/// Applies all entries again, to the takes and texts in the journal or to those of the file, `model` and `texts`.
+pub(super) fn replay(model: &ModelData, texts: &TextFiles, entries: &[JournalEntry]) -> Replayed {
     let mut replay = Replay {
         model,
+        texts,
         replayed: Replayed {
-            edited: Edited::new(ModelAdapter::of(model)),
+            edited: Edited::new(ModelAdapter::of(model).with_texts(texts.clone())),
             base: None,
             at_save: None,
             stopped: None,
@@ -81,6 +90,7 @@ pub(super) fn replay(model: &ModelData, entries: &[JournalEntry]) -> Replayed {
 
 struct Replay<'a> {
     model: &'a ModelData,
+    texts: &'a TextFiles,
     replayed: Replayed,
 }
 
@@ -140,7 +150,18 @@ impl Replay<'_> {
         self.replayed.base = base.map(|_| takes.clone().into());
         let edited = &mut self.replayed.edited;
         let adapter = ModelAdapter::new(&AnimationData { skeleton, takes });
-        *edited = Edited::started(adapter.with_shapes(ModelShapes::of(self.model)), roots);
+        let texts = match &*snapshot.texts {
+            [] => self.texts.clone(),
+            texts => {
+                let file = |(name, text): &(String, String)| TextFile {
+                    name: name.as_str().into(),
+                    text: text.as_str().into(),
+                };
+                texts.iter().map(file).collect()
+            }
+        };
+        let adapter = adapter.with_shapes(ModelShapes::of(self.model)).with_texts(texts);
+        *edited = Edited::started(adapter, roots);
         for edit in snapshot.steps {
             edited.apply(edit, None).map_err(|error| error.to_string())?;
         }
@@ -149,7 +170,7 @@ impl Replay<'_> {
         let at_save = snapshot.saved.map(|saved| {
             let mut then = edited.clone();
             then.go_to(saved);
-            takes_of(&then)
+            SavedContent::of(&then)
         });
         self.replayed.at_save = at_save.filter(|_| base.is_some());
         Ok(())
@@ -157,10 +178,14 @@ impl Replay<'_> {
 
     fn saved(&mut self) {
         self.replayed.edited.mark_saved();
-        self.replayed.at_save = Some(takes_of(&self.replayed.edited));
+        self.replayed.at_save = Some(SavedContent::of(&self.replayed.edited));
     }
 }
 
-fn takes_of(edited: &Edited) -> Vec<(TakeId, Arc<Take>)> {
-    edited.adapter().slots().iter().map(|slot| (slot.id, Arc::clone(slot.shown()))).collect()
+impl SavedContent {
+    fn of(edited: &Edited) -> Self {
+        let adapter = edited.adapter();
+        let takes = adapter.slots().iter().map(|slot| (slot.id, Arc::clone(slot.shown()))).collect();
+        Self { takes, texts: adapter.texts().clone() }
+    }
 }

@@ -47,6 +47,7 @@ fn waits(message: &DocumentMessage) -> Waits {
     match message {
         DocumentMessage::CancelLoading
         | DocumentMessage::Plan(_)
+        | DocumentMessage::ShowScript(_)
         | DocumentMessage::Search
         | DocumentMessage::ReadSource(_)
         | DocumentMessage::ReadCompared(_)

@@ -76,7 +76,11 @@ pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, String> {
     let plan = input.editable.plan(input.edited.adapter()).map_err(|error| error.to_string())?;
     let files = input.editable.files(&plan, &input.output)?;
     let bytes = files.last().map_or(&[][..], |(_, bytes)| bytes);
-    let size_and_hash = (bytes.len() as u64, dragonfly_store::hash(bytes));
+    // Where the main file stays, no file of this size tells that the others were written.
+    let size_and_hash = match input.editable.has_unchanged_main(&input.output, bytes) {
+        true => (u64::MAX, 0),
+        false => (bytes.len() as u64, dragonfly_store::hash(bytes)),
+    };
     let journal = match input.successor.take() {
         Some(successor) => {
             let snapshot = input.snapshot()?;

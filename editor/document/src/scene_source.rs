@@ -1,13 +1,14 @@
 //! Scripts of scenes from files, with the models that they name.
 
-use super::import::{self, ImportDoor};
-use super::source::{LoadError, file_name};
-use super::{Cancel, FileAccessError, Folder, read_file};
-use dragonfly_anim::format::Conventions;
-use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_anim::stage::script::{MOST_BYTES, ScriptAttribute, ScriptError, StageScript};
+use super::load::load_inside;
+use super::scene_lines::SceneLines;
+use super::source::LoadError;
+use super::text_source::{is_project, read_texts};
+use super::{Cancel, Folder};
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::{ScriptError, StageScript};
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -25,14 +26,15 @@ pub struct LoadedScene {
 /// The reason why a scene cannot be shown.
 #[derive(Debug, Error)]
 pub enum SceneLoadError {
-    /// The script's file cannot be read.
-    #[error("{}: {reason}", path.display())]
-    File {
-        /// The path.
-        path: PathBuf,
-        /// The reason.
-        reason: FileAccessError,
-    },
+    /// A text cannot be read.
+    #[error(transparent)]
+    Text(#[from] LoadError),
+    /// The scripts of a project cannot be read, a line each.
+    #[error("{0}")]
+    Unread(String),
+    /// The project has no script.
+    #[error("the project has no <script>")]
+    NoScript,
     /// The script, or a model that it names, is wrong.
     #[error("{}", listed(title, errors))]
     Script {
@@ -56,36 +58,46 @@ pub fn is_script(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
 }
 
-/// Reads a script and the models that it names. Files are read only from the folder of the script and below.
+/// Reads a script, or the first script of a project, and the models that it names. Files are read only from its folder and below.
 ///
 /// # Errors
 ///
-/// The script cannot be read, or something in it or in its models is wrong.
+/// A text cannot be read, or something in it or in its models is wrong.
 pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoadError> {
-    let title = file_name(path);
-    let unread = |reason| SceneLoadError::File { path: path.to_path_buf(), reason };
-    let bytes = read_file(path, MOST_BYTES as u64).map_err(unread)?;
-    let folder = Folder::of(path).map_err(unread)?;
+    let read = read_texts(path)?;
+    let folder = Folder::of(path).map_err(|reason| LoadError::File { path: path.to_owned(), reason })?;
+    let Some((main, others)) = read.texts.list().split_first() else { return Err(SceneLoadError::NoScript) };
+    let (mut script, mut project) = (main, None);
+    if is_project(path) {
+        let title = main.name.to_string();
+        let found = StageProject::read(Arc::clone(&main.text))
+            .map_err(|errors| SceneLoadError::Script { title, errors })?;
+        let own = found.scripts().find_map(|name| others.iter().find(|file| *file.name == *name));
+        // A script that could not be read has its reason.
+        script = own.ok_or_else(|| match &*read.warnings {
+            [] => SceneLoadError::NoScript,
+            warnings => SceneLoadError::Unread(warnings.join("\n")),
+        })?;
+        project = Some(found);
+    }
+    let title = script.name.to_string();
     let wrong = |errors| SceneLoadError::Script { title: title.clone(), errors };
-    let script = StageScript::read(text(bytes).map_err(wrong)?).map_err(wrong)?;
-    let assets = load_assets(&script, &folder, cancel)?.map_err(wrong)?;
+    let script = StageScript::read_of(Arc::clone(&script.text), project.as_ref()).map_err(wrong)?;
+    let mut assets = load_assets(&script, project.as_ref(), &folder, cancel)?.map_err(wrong)?;
+    let mut lines = SceneLines::default();
+    lines.update(project.as_ref(), &read.texts, &mut assets);
+    if !lines.errors.is_empty() {
+        let title = project.as_ref().and_then(StageProject::lines).unwrap_or_default().to_owned();
+        return Err(SceneLoadError::Script { title, errors: lines.errors.to_vec() });
+    }
     let plan = StagePlan::new(&script, &assets).map_err(wrong)?;
     Ok(LoadedScene { title, script, plan })
-}
-
-/// Returns the text of a file.
-fn text(bytes: Vec<u8>) -> Result<String, Vec<ScriptError>> {
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-        // The part before is read only for its lines.
-        vec![ScriptError::at(&before, at..at, "this is not UTF-8 text", "save the file as UTF-8")]
-    })
 }
 
 /// Loads each model that a script names, once.
 fn load_assets(
     script: &StageScript,
+    project: Option<&StageProject>,
     folder: &Folder,
     cancel: &Cancel,
 ) -> Result<Result<StageAssets, Vec<ScriptError>>, SceneLoadError> {
@@ -97,11 +109,15 @@ fn load_assets(
         if assets.model(&source.value).is_some() {
             continue;
         }
-        match load(source, folder, cancel) {
-            Ok(model) => assets.add_model(&*source.value, Arc::new(model)),
-            Err(None) => return Err(SceneLoadError::Cancelled),
-            Err(Some(reason)) => {
-                let message = format!("{}: {reason}", source.value);
+        let file = project.map_or(&*source.value, |project| project.source_of(&source.value));
+        match load_inside(folder, file, cancel) {
+            Ok(loaded) => assets.add_model(&*source.value, Arc::new(StageModel::new(loaded.model))),
+            Err(LoadError::Cancelled) => return Err(SceneLoadError::Cancelled),
+            Err(reason) => {
+                let message = match reason {
+                    LoadError::Format { reason, .. } => format!("{file}: {reason}"),
+                    other => other.to_string(),
+                };
                 errors.push(ScriptError::at(
                     script.tree().text(),
                     source.value_range.clone(),
@@ -112,19 +128,4 @@ fn load_assets(
         }
     }
     Ok(if errors.is_empty() { Ok(assets) } else { Err(errors) })
-}
-
-/// Loads a model. The error has a reason, or none where loading was cancelled.
-fn load(source: &ScriptAttribute, folder: &Folder, cancel: &Cancel) -> Result<StageModel, Option<String>> {
-    let reason = |error: FileAccessError| Some(error.to_string());
-    let path = folder.path_of(&source.value).map_err(reason)?;
-    let bytes = folder.read(&source.value, FILE_BYTES).map_err(reason)?;
-    let beside = Folder::of(&path).map_err(reason)?;
-    let door = ImportDoor { files: &beside, conventions: Conventions::default() };
-    match import::read(&file_name(&path), &bytes, door, &|_| {}, cancel) {
-        Ok(imported) => Ok(StageModel::new(Arc::new(imported.model))),
-        Err(LoadError::Cancelled) => Err(None),
-        Err(LoadError::Format { reason, .. }) => Err(Some(reason)),
-        Err(error @ LoadError::File { .. }) => Err(Some(error.to_string())),
-    }
 }

@@ -1,6 +1,9 @@
 //! The published state of a scene: its script, what plays, and the models of its things.
 
 use super::LoadedModel;
+use super::adapter::TextFiles;
+use dragonfly_anim::stage::line::DrawnLines;
+use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptError, StageScript};
 use dragonfly_anim::stage::{PlannedThing, StagePlan};
 use std::collections::BTreeMap;
@@ -11,6 +14,18 @@ use std::sync::Arc;
 pub struct SceneView {
     /// The newest text of the script.
     pub text: Arc<str>,
+    /// Name of the script's file among the texts of the document, as edits of it name it.
+    pub name: Arc<str>,
+    /// All texts of the document: the script alone, or the files of a project.
+    pub texts: TextFiles,
+    /// The project of its last text without errors; `None` for a script that is open alone.
+    pub project: Option<Arc<StageProject>>,
+    /// What is wrong with the newest text of the project, in its order.
+    pub project_errors: Arc<[ScriptError]>,
+    /// The drawn lines of a project, as they were in the last text of them without errors; `None` without such a file.
+    pub lines: Option<Arc<DrawnLines>>,
+    /// What is wrong with the newest text of the lines, in its order.
+    pub line_errors: Arc<[ScriptError]>,
     /// The script of the last text without errors; `None` before the first one. While [`Self::errors`] has some, its ranges are those of an
     /// older text.
     pub script: Option<Arc<StageScript>>,
@@ -18,6 +33,8 @@ pub struct SceneView {
     pub plan: Option<Arc<StagePlan>>,
     /// What is wrong with [`Self::text`], in its order; empty if `script` and `plan` are those of this text.
     pub errors: Arc<[ScriptError]>,
+    /// What the user should know about the scene that plays, in the order of its text: models that are missing, ends before begins.
+    pub notes: Arc<[ScriptError]>,
     /// The models, by the text with which the script names them.
     pub models: Arc<BTreeMap<String, SceneModel>>,
 }

@@ -7,7 +7,7 @@ use super::run_command::RunCommand;
 use super::table::count;
 use super::take_lint::{TakeDefect, TakeThresholds, defects};
 use dragonfly_anim::check::{RULES, Severity, check};
-use dragonfly_document::{Cancel, SceneLoadError, is_script, load_scene};
+use dragonfly_document::{Cancel, SceneLoadError, is_scene, load_scene};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -123,7 +123,7 @@ struct FindingRow {
 
 impl CheckReport {
     fn of(file: &std::path::Path, deny: Deny, thresholds: Option<&TakeThresholds>) -> Result<Self, Failure> {
-        if is_script(file) {
+        if is_scene(file) {
             return Self::of_script(file, deny);
         }
         let loaded = load_checked(&source(file))?;
@@ -162,7 +162,12 @@ impl CheckReport {
         let (title, errors, notes) = match load_scene(file, &Cancel::default()) {
             Ok(scene) => (scene.title, Vec::new(), scene.plan.schedule().notes().to_vec()),
             Err(SceneLoadError::Script { title, errors }) => (title, errors, Vec::new()),
-            Err(error @ (SceneLoadError::File { .. } | SceneLoadError::Cancelled)) => {
+            Err(
+                error @ (SceneLoadError::Text(_)
+                | SceneLoadError::Unread(_)
+                | SceneLoadError::NoScript
+                | SceneLoadError::Cancelled),
+            ) => {
                 return Err(error.into());
             }
         };

@@ -3,7 +3,7 @@
 use super::import_options::ImportArguments;
 use super::{Failure, progress::Teller};
 use dragonfly_anim::data::{ModelData, Take};
-use dragonfly_document::{Cancel, LoadedModel, Source, formats, is_script, load_model};
+use dragonfly_document::{Cancel, LoadedModel, Source, formats, is_scene, load_model};
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -32,7 +32,7 @@ pub(super) struct File {
 impl File {
     /// Returns the path if it is one of a scene's script.
     pub(super) fn script(&self) -> Option<&std::path::Path> {
-        Some(self.path.as_path()).filter(|path| is_script(path))
+        Some(self.path.as_path()).filter(|path| is_scene(path))
     }
 
     /// Loads the model, with progress on stderr if that takes long.

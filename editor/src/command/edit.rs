@@ -104,7 +104,7 @@ impl EditArguments {
             Failure::input(self.edits_name(), format_args!("line {line}: {error}"))
         };
         let Some(old) = &self.rebase else {
-            let mut adapter = ModelAdapter::of(&editable.model);
+            let mut adapter = editable.adapter();
             for (line, edit) in edits {
                 let done = adapter.allows(edit).and_then(|()| adapter.apply(edit));
                 done.map_err(|error| failed(*line, error))?;
@@ -112,7 +112,7 @@ impl EditArguments {
             return Ok((adapter, Vec::new()));
         };
         let old = Editable::open(&source_as(old, &self.import), &Cancel::default())?;
-        let mut rebase = Rebase::new(ModelAdapter::of(&old.model), &editable.model);
+        let mut rebase = Rebase::new(old.adapter(), editable.adapter());
         for (line, edit) in edits {
             let done = rebase.old().allows(edit).and_then(|()| rebase.apply(*line, edit));
             done.map_err(|error| failed(*line, error))?;

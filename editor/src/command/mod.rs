@@ -20,6 +20,7 @@ mod info;
 mod log;
 mod open;
 mod output;
+mod pack;
 mod pose;
 mod progress;
 mod quiet;
@@ -71,6 +72,8 @@ subcommands! {
     Retarget => retarget::RetargetArguments,
     Convert => convert::ConvertArguments,
     Takes => takes::TakesArguments,
+    Pack => pack::PackArguments,
+    Unpack => pack::UnpackArguments,
     Demo => demo::DemoArguments,
 }
 
@@ -96,6 +99,8 @@ Examples:
                                     convert a folder of files to another format
   dragonfly takes add Hero.glb captures/*.glb -o Hero2.glb
                                     add the takes of other files to a model
+  dragonfly pack duel.meproj -o duel.zip
+                                    collect a project with everything that it needs
   dragonfly --commands              list the commands of the editor with their shortcuts
 
 FILE can be `demo:` for the built-in model.

@@ -1,8 +1,10 @@
 //! The schema that is made from the tables, checked with an independent validator.
 
 use super::DUEL;
+use super::projects::PROJECT;
+use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::StageScript;
-use dragonfly_anim::stage::table::{ELEMENTS, schema};
+use dragonfly_anim::stage::table::{ELEMENTS, LINE_FILES, PROJECTS, Vocabulary, schema};
 use dragonfly_kit::skip::{TestNeed, skip};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -85,4 +87,37 @@ fn every_element_and_attribute_is_in_the_schema_with_its_help() {
             assert!(attribute.help.ends_with('.') && row.help.ends_with('.'), "{}", attribute.name);
         }
     }
+}
+
+#[test]
+fn an_independent_validator_accepts_the_projects_and_lines_that_we_accept_and_refuses_what_we_refuse() {
+    let folder = folder("projects");
+    let valid = |vocabulary: &Vocabulary, text: &str| {
+        let [rng, xml] = ["other.rng", "other.xml"].map(|name| folder.join(name));
+        std::fs::write(&rng, vocabulary.schema()).unwrap();
+        std::fs::write(&xml, text).unwrap();
+        let run = Command::new("xmllint").arg("--noout").arg("--relaxng").args([&rng, &xml]).output().ok()?;
+        Some(run.status.success())
+    };
+    if valid(&PROJECTS, PROJECT).is_none() {
+        return skip(TestNeed::Evaluators, "there is no xmllint");
+    }
+    assert_eq!(valid(&PROJECTS, PROJECT), Some(true));
+    for (from, to) in [
+        ("<scene ", "<scenery "),
+        ("src=\"duel.xml\"", ""),
+        ("hash=\"0123456789abcdef\"", "hash=\"0123\""),
+        ("tone=\"agx\"", "tone=\"film\""),
+        ("samples=\"64\"", "samples=\"many\""),
+    ] {
+        let text = PROJECT.replacen(from, to, 1);
+        assert_ne!(text, PROJECT);
+        assert_eq!(valid(&PROJECTS, &text), Some(false), "{to}");
+        assert!(StageProject::read(text).is_err(), "{to}");
+    }
+    let lines =
+        "<lines version=\"1\"><line id=\"a\" points=\"0 0 0  1 0 0  2 0 0  3 0 0\" width=\"2\"/></lines>";
+    assert_eq!(valid(&LINE_FILES, lines), Some(true));
+    assert_eq!(valid(&LINE_FILES, &lines.replace("width=\"2\"", "width=\"wide\"")), Some(false));
+    assert_eq!(valid(&LINE_FILES, &lines.replace("points", "point")), Some(false));
 }

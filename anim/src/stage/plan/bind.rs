@@ -48,6 +48,7 @@ impl<'a> StageBinder<'a> {
                 id: element.value("id").unwrap_or_default().into(),
                 kind: element.row.name,
                 scale: number(element, "scale").unwrap_or(1.0),
+                is_missing: model.is_none() && element.value("model").is_some(),
                 model,
                 places: PlaceLane { base: base(element), cues: Vec::new() },
                 poses: vec![super::poses::PoseLane::default()],
@@ -80,7 +81,7 @@ impl<'a> StageBinder<'a> {
     ) -> Option<Arc<StageModel>> {
         let source = element.value("model")?;
         let model = assets.model(source).cloned();
-        if model.is_none() {
+        if model.is_none() && !assets.allows_missing_models() {
             let help = suggestion(source, "models", assets.model_names());
             errors.add(element.value_range("model"), format!("there is no model \"{source}\""), help);
         }
@@ -131,6 +132,7 @@ impl<'a> StageBinder<'a> {
                 let found = self.bone(model, bone, &self.things[thing].id, element, name, errors);
                 found.map(|bone| StageSpot::Bone(thing, bone))
             }
+            None if self.things[thing].is_missing => Some(StageSpot::Thing(thing)),
             None => {
                 if !matches!(self.things[thing].kind, "role" | "prop") {
                     let message = format!("a {} has no bones", self.things[thing].kind);

@@ -10,6 +10,7 @@ use super::follow::{PathFollower, PathHeading, PathStride};
 use super::placement::facing_of;
 use super::places::{MotionKind, PlaceCue, PlaceLane};
 use super::spot::StageSpot;
+use crate::stage::assets::{UNKNOWN_SPEED, UNKNOWN_TAKE};
 use crate::stage::ease::StageEase;
 use crate::stage::model::StageModel;
 use crate::stage::path::StagePath;
@@ -82,7 +83,7 @@ impl MotionPlanner<'_, '_> {
         for (action, bound) in self.bound.iter().enumerate() {
             let element = self.binder.script.element(action);
             let length = match element.row.name {
-                "play" => self.play_clock(action).map_or(StageTime::ZERO, |clock| clock.once),
+                "play" => self.play_length(action),
                 "move" => {
                     let start = bound.who.and_then(|who| last.get(who)).copied().unwrap_or(DVec3::ZERO);
                     let path =
@@ -146,6 +147,30 @@ impl MotionPlanner<'_, '_> {
         Some(StagePath::new(&[start, end], false))
     }
 
+    /// Returns whether the model of the thing that acts is missing.
+    fn lacks_model(&self, action: usize) -> bool {
+        self.bound[action]
+            .who
+            .and_then(|who| self.binder.things.get(who))
+            .is_some_and(|thing| thing.is_missing)
+    }
+
+    /// Returns the duration of one repetition of a `play`.
+    fn play_length(&self, action: usize) -> StageTime {
+        if let Some(clock) = self.play_clock(action) {
+            return clock.once;
+        }
+        if !self.lacks_model(action) {
+            return StageTime::ZERO;
+        }
+        let (element, rate) = (self.binder.script.element(action), self.binder.script.rate());
+        let time = |name: &str| element.value(name).and_then(|text| parse_time(text, rate));
+        let from = time("from").unwrap_or_default();
+        let to = time("to").unwrap_or(from + StageTime::from_seconds(UNKNOWN_TAKE)).max(from);
+        let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
+        (to - from).over(speed)
+    }
+
     fn stride(&self, action: usize) -> Option<PathStride> {
         let bound = &self.bound[action];
         let (take, model) = bound.take.as_ref()?;
@@ -157,6 +182,9 @@ impl MotionPlanner<'_, '_> {
         let element = self.binder.script.element(action);
         let seconds = match number(element, "speed") {
             Some(speed) => path.length() / speed,
+            None if self.lacks_model(action) && element.value("take").is_some() => {
+                path.length() / UNKNOWN_SPEED
+            }
             None => self.stride(action)?.phase_at(path.length()),
         };
         Some(StageTime::from_seconds(seconds))

@@ -30,8 +30,10 @@ pub struct PlannedThing {
     pub kind: &'static str,
     /// Meters in one length of its model.
     pub scale: f64,
-    /// Its model; `None` for things without one.
+    /// Its model; `None` for things without one, and while it is missing.
     pub model: Option<Arc<StageModel>>,
+    /// Whether it has a model that is missing: what is known of its takes and bones is guessed.
+    pub is_missing: bool,
     pub(super) places: PlaceLane,
     /// The first lane is that of the whole body.
     pub(super) poses: Vec<PoseLane>,

@@ -16,13 +16,15 @@ mod tree;
 pub use crate::stage::moment::{MomentText, is_name};
 pub(in crate::stage) use error::ErrorList;
 pub use error::{MOST_ERRORS, ScriptError};
+pub(in crate::stage) use read::read_tree;
 pub use read::{MOST_BYTES, MOST_DEPTH, MOST_NODES};
 pub(in crate::stage) use suggest::suggestion;
 use text_place::LineIndex;
 pub use text_place::TextPlace;
 pub use tree::{ScriptAttribute, ScriptElement, ScriptTree};
 
-use crate::stage::table::{ElementGroup, size};
+use crate::stage::project::StageProject;
+use crate::stage::table::{ElementGroup, SCRIPTS, size};
 use crate::stage::time::{Decimal, StageRate, StageTime, parse_time};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -101,27 +103,51 @@ impl StageScript {
     ///
     /// Everything that is wrong, in the order of the text: at most [`MOST_ERRORS`]. A text that is not XML has one error.
     pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
+        Self::read_of(text, None)
+    }
+
+    /// Reads a script of a project: the things of the project's cast are things of the script too, and it has the frame rate, size and
+    /// seed of the project where it does not say so itself.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`]. Errors of shared things are at the end of the text.
+    pub fn read_of(
+        text: impl Into<Arc<str>>,
+        project: Option<&StageProject>,
+    ) -> Result<Self, Vec<ScriptError>> {
         let text = text.into();
-        let tree = read::read_tree(&text)?;
+        let mut tree = read::read_tree(&text, &SCRIPTS)?;
+        let own = tree.elements.len();
+        if let Some(project) = project {
+            tree.elements.extend(project.shared_things(text.len()));
+        }
         let root = &tree.elements[0];
+        let of_project = |name: &str| project.and_then(|project| project.tree().elements()[0].value(name));
+        // What is written counts, then what the project has, then the default.
+        let value = |name: &str| match root.attribute(name) {
+            Some(written) => Some(&*written.value),
+            None => of_project(name).or_else(|| root.value(name)),
+        };
         let (rate, size, seed) = (
-            root.value("fps").and_then(StageRate::parse).unwrap_or_default(),
-            root.value("size").and_then(size).unwrap_or([1280, 720]),
-            root.value("seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
+            value("fps").and_then(StageRate::parse).unwrap_or_default(),
+            value("size").and_then(size).unwrap_or([1280, 720]),
+            value("seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
         );
         let mut script =
             Self { tree, rate, size, seed, things: Vec::new(), actions: Vec::new(), ids: HashMap::new() };
         let lines = script.tree.lines.clone();
         let mut errors = ErrorList::new(&lines);
-        script.collect(&mut errors);
+        script.collect(own, &mut errors);
         references::resolve(&mut script, &mut errors);
         if errors.is_empty() { Ok(script) } else { Err(errors.sorted()) }
     }
 
-    /// Lists things, actions and ids.
-    fn collect(&mut self, errors: &mut ErrorList) {
+    /// Lists things, actions and ids: first of the elements that the script shares with its project, which follow the first `own`.
+    fn collect(&mut self, own: usize, errors: &mut ErrorList) {
         let mut action_of: HashMap<usize, usize> = HashMap::new();
-        for (index, element) in self.tree.elements.iter().enumerate() {
+        for index in (own..self.tree.elements.len()).chain(0..own) {
+            let element = &self.tree.elements[index];
             let item = match element.row.group {
                 ElementGroup::Thing => {
                     self.things.push(index);
@@ -138,7 +164,7 @@ impl StageScript {
                     action_of.insert(index, own);
                     NamedItem::Action(own)
                 }
-                ElementGroup::Cast | ElementGroup::Part => continue,
+                ElementGroup::Cast | ElementGroup::Part | ElementGroup::Project => continue,
             };
             let Some(id) = element.value("id") else { continue };
             if id == "prev" {
@@ -152,8 +178,12 @@ impl StageScript {
                     NamedItem::Thing(thing) => self.things[thing],
                     NamedItem::Action(action) => self.actions[action].element,
                 };
-                let first = errors.place(self.tree.elements[first].range.start);
-                let message = format!("the id \"{id}\" is used at {first} already");
+                let first = &self.tree.elements[first];
+                let first = match first.is_shared {
+                    true => "in the cast of the project".to_owned(),
+                    false => format!("at {}", errors.place(first.range.start)),
+                };
+                let message = format!("the id \"{id}\" is used {first} already");
                 errors.add(element.value_range("id"), message, "an id names one thing or action");
             }
         }

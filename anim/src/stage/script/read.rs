@@ -4,7 +4,7 @@ use super::error::ErrorList;
 use super::suggest::suggestion;
 use super::tree::{ScriptAttribute, ScriptElement, ScriptTree};
 use super::{LineIndex, ScriptError};
-use crate::stage::table::{ELEMENTS, ElementGroup, ElementRow, children_of, element};
+use crate::stage::table::{ElementGroup, ElementRow, Vocabulary};
 use crate::stage::time::StageRate;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::ops::Range;
@@ -19,23 +19,26 @@ pub const MOST_NODES: u32 = 500_000;
 /// Largest depth of elements.
 pub const MOST_DEPTH: usize = 64;
 
-/// Reads the elements of a text and checks them against the tables.
-pub(super) fn read_tree(text: &Arc<str>) -> Result<ScriptTree, Vec<ScriptError>> {
+/// Reads the elements of a text and checks them against the tables of its vocabulary.
+pub(in crate::stage) fn read_tree(
+    text: &Arc<str>,
+    vocabulary: &'static Vocabulary,
+) -> Result<ScriptTree, Vec<ScriptError>> {
     let lines = LineIndex::new(text);
     let mut errors = ErrorList::new(&lines);
     let mut elements = Vec::new();
     if text.len() > MOST_BYTES {
-        errors.add(0..0, format!("the script has {} bytes; at most {MOST_BYTES} are read", text.len()), "");
+        errors.add(0..0, format!("the text has {} bytes; at most {MOST_BYTES} are read", text.len()), "");
     } else if let Some(at) = too_deep(text) {
         errors.add(at..at, format!("elements are nested more than {MOST_DEPTH} deep"), "");
     } else {
         let options =
             ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
         match Document::parse_with_options(text, options) {
-            Ok(document) => elements = checked(&document, &mut errors),
+            Ok(document) => elements = checked(&document, vocabulary, &mut errors),
             Err(error) => {
                 let at = error.pos();
-                errors.add(lines.range(at.row, at.col), xml_message(&error), "");
+                errors.add(lines.range(at.row, at.col), xml_message(&error, vocabulary), "");
             }
         }
     }
@@ -89,15 +92,17 @@ fn tag_end(tag: &[u8]) -> usize {
     tag.len()
 }
 
-fn xml_message(error: &roxmltree::Error) -> String {
+fn xml_message(error: &roxmltree::Error, vocabulary: &Vocabulary) -> String {
     let text = match error {
         roxmltree::Error::DtdDetected => {
             "document types (<!DOCTYPE …>) and their entities are refused".to_owned()
         }
         roxmltree::Error::NodesLimitReached => {
-            format!("the script has more than {MOST_NODES} elements, texts and comments")
+            format!("the text has more than {MOST_NODES} elements, texts and comments")
         }
-        roxmltree::Error::NoRootNode => "there is no element; <script version=\"1\"> is expected".to_owned(),
+        roxmltree::Error::NoRootNode => {
+            format!("there is no element; <{} version=\"1\"> is expected", vocabulary.root.name)
+        }
         other => {
             // The place is in front of the message.
             let text = other.to_string();
@@ -108,12 +113,17 @@ fn xml_message(error: &roxmltree::Error) -> String {
 }
 
 /// Returns the elements of our vocabulary, and reports everything that does not fit the tables.
-fn checked(document: &Document, errors: &mut ErrorList) -> Vec<ScriptElement> {
+fn checked(
+    document: &Document,
+    vocabulary: &'static Vocabulary,
+    errors: &mut ErrorList,
+) -> Vec<ScriptElement> {
     let root = document.root_element();
+    let wanted = vocabulary.root.name;
     let mut elements = Vec::new();
-    if root.tag_name().namespace().is_some() || root.tag_name().name() != "script" {
-        let message =
-            format!("<{}> is not a script; <script version=\"1\"> is expected", root.tag_name().name());
+    if root.tag_name().namespace().is_some() || root.tag_name().name() != wanted {
+        let (name, title) = (root.tag_name().name(), vocabulary.title);
+        let message = format!("<{name}> is not {title}; <{wanted} version=\"1\"> is expected");
         errors.add(name_range(&root), message, "");
         return elements;
     }
@@ -122,8 +132,8 @@ fn checked(document: &Document, errors: &mut ErrorList) -> Vec<ScriptElement> {
     let mut open: Vec<(Node, Option<usize>)> = vec![(root, None)];
     while let Some((node, parent)) = open.pop() {
         let row = match parent {
-            None => element("script"),
-            Some(parent) => allowed(&node, &elements, parent, errors),
+            None => Some(vocabulary.root),
+            Some(parent) => allowed(&node, vocabulary, &elements, parent, errors),
         };
         let Some(row) = row else { continue };
         let attributes = attributes(&node, row, rate, errors);
@@ -134,6 +144,7 @@ fn checked(document: &Document, errors: &mut ErrorList) -> Vec<ScriptElement> {
             range: node.range(),
             name: name_range(&node),
             attributes,
+            is_shared: false,
         });
         for child in node.children() {
             if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
@@ -158,18 +169,19 @@ fn checked(document: &Document, errors: &mut ErrorList) -> Vec<ScriptElement> {
 /// Returns the row of an element if it may be in its parent.
 fn allowed(
     node: &Node,
+    vocabulary: &Vocabulary,
     elements: &[ScriptElement],
     parent: usize,
     errors: &mut ErrorList,
 ) -> Option<&'static ElementRow> {
     let (name, above) = (node.tag_name().name(), elements.get(parent)?.row);
-    let inside = children_of(above);
+    let inside = vocabulary.children_of(above);
     if let Some(row) = inside.iter().find(|row| row.name == name) {
         return Some(row);
     }
     let names = || inside.iter().map(|row| row.name);
-    let help = match (element(name), inside.is_empty()) {
-        (Some(row), _) => format!("it belongs in {}", parents_of(row)),
+    let help = match (vocabulary.element(name), inside.is_empty()) {
+        (Some(row), _) => format!("it belongs in {}", parents_of(row, vocabulary)),
         (None, true) => String::new(),
         (None, false) => suggestion(name, "elements", names()),
     };
@@ -181,16 +193,16 @@ fn allowed(
     None
 }
 
-fn parents_of(row: &ElementRow) -> String {
+fn parents_of(row: &ElementRow, vocabulary: &Vocabulary) -> String {
     match row.group {
-        ElementGroup::Script => "no other element".to_owned(),
-        ElementGroup::Cast => "<script>".to_owned(),
+        ElementGroup::Script | ElementGroup::Project => "no other element".to_owned(),
+        ElementGroup::Cast => format!("<{}>", vocabulary.root.name),
         ElementGroup::Thing => "<cast>".to_owned(),
         ElementGroup::Container | ElementGroup::Action => "<script>, <seq> or <par>".to_owned(),
         ElementGroup::Part => {
             let has = |above: &&&ElementRow| above.parts.iter().any(|part| part.name == row.name);
             let names: Vec<String> =
-                ELEMENTS.iter().filter(has).map(|above| format!("<{}>", above.name)).collect();
+                vocabulary.elements.iter().filter(has).map(|above| format!("<{}>", above.name)).collect();
             names.join(", ")
         }
     }

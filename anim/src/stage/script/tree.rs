@@ -31,6 +31,8 @@ pub struct ScriptElement {
     pub range: Range<usize>,
     /// Bytes of its name in the start tag.
     pub name: Range<usize>,
+    /// Whether it is of the project that the script belongs to. Its bytes are the end of the script's text then.
+    pub is_shared: bool,
     /// Its attributes, in the order of the text. Those of other namespaces are left out.
     pub attributes: Vec<ScriptAttribute>,
 }
@@ -54,7 +56,7 @@ impl ScriptElement {
     }
 }
 
-/// The text of a script and its elements, in the order of their start tags. Elements of other namespaces are left out.
+/// The text of a script and its elements, in the order of their start tags; those that it shares with its project follow. Elements of other namespaces are left out.
 #[derive(Clone, Debug)]
 pub struct ScriptTree {
     pub(super) text: Arc<str>,
@@ -70,12 +72,16 @@ impl ScriptTree {
     ///
     /// Everything that is wrong, in the order of the text.
     pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
-        super::read::read_tree(&text.into())
+        super::read::read_tree(&text.into(), &crate::stage::table::SCRIPTS)
     }
 
     /// Returns the text.
     pub fn text(&self) -> &Arc<str> {
         &self.text
+    }
+
+    pub(in crate::stage) fn lines(&self) -> &LineIndex {
+        &self.lines
     }
 
     /// Returns all elements; the first one is the script.

@@ -66,6 +66,14 @@ impl TextSplice {
 }
 
 impl TextSplices {
+    /// Creates replacements in any order; `None` where two of them overlap or a range ends before it starts.
+    pub fn new(mut splices: Vec<TextSplice>) -> Option<Self> {
+        splices.sort_by_key(|splice| (splice.range.start, splice.range.end));
+        let is_ordered = splices.iter().all(|splice| splice.range.start <= splice.range.end)
+            && splices.is_sorted_by(|one, next| one.range.end <= next.range.start);
+        is_ordered.then_some(Self(splices))
+    }
+
     /// Creates one replacement.
     pub(super) fn one(range: Range<usize>, text: impl Into<String>) -> Self {
         Self(vec![TextSplice { range, text: text.into() }])

@@ -5,11 +5,13 @@
 
 mod actions;
 mod cast;
+mod project;
 mod property;
 mod reference;
 mod row;
 mod schema;
 mod value;
+mod vocabulary;
 
 pub use property::{PROPERTIES, PropertyRow, PropertyType, property};
 pub use reference::NameReference;
@@ -17,8 +19,9 @@ pub use row::{AttributeRow, ElementGroup, ElementRow};
 pub use schema::schema;
 pub use value::ValueRow;
 pub(in crate::stage) use value::{numbers, points, size, vector};
+pub use vocabulary::{LINE_FILES, PROJECTS, SCRIPTS, Vocabulary};
 
-/// Every element, in the order of the documentation.
+/// Every element of scripts, in the order of the documentation.
 pub const ELEMENTS: &[&ElementRow] = &[
     &cast::SCRIPT,
     &cast::CAST,
@@ -48,20 +51,12 @@ pub const ELEMENTS: &[&ElementRow] = &[
     &actions::AT,
 ];
 
-/// Returns the row of the element called `name`.
+/// Returns the row of the element of scripts called `name`.
 pub fn element(name: &str) -> Option<&'static ElementRow> {
-    ELEMENTS.iter().find(|row| row.name == name).copied()
+    SCRIPTS.element(name)
 }
 
-/// Returns the elements that may be inside `row`.
+/// Returns the elements that may be inside `row` in a script.
 pub fn children_of(row: &ElementRow) -> Vec<&'static ElementRow> {
-    let of = |groups: &[ElementGroup]| {
-        ELEMENTS.iter().copied().filter(|row| groups.contains(&row.group)).collect()
-    };
-    match row.group {
-        ElementGroup::Script => of(&[ElementGroup::Cast, ElementGroup::Container, ElementGroup::Action]),
-        ElementGroup::Cast => of(&[ElementGroup::Thing]),
-        ElementGroup::Container => of(&[ElementGroup::Container, ElementGroup::Action]),
-        ElementGroup::Thing | ElementGroup::Action | ElementGroup::Part => row.parts.to_vec(),
-    }
+    SCRIPTS.children_of(row)
 }

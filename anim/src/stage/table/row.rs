@@ -15,8 +15,10 @@ pub enum ElementGroup {
     Container,
     /// An action.
     Action,
-    /// A part of one action.
+    /// A part of one element.
     Part,
+    /// The element around everything of a project, or of a file of lines.
+    Project,
 }
 
 /// An attribute of an element.

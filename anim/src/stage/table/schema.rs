@@ -1,23 +1,34 @@
-//! The schema of scripts in RELAX NG, made from the tables.
+//! The schema of each kind of text in RELAX NG, made from the tables.
 //!
 //! For editors that complete and check XML, and for documentation. It describes a text without its meaning: that a name exists, or that a
 //! take belongs to a model, is checked by this library alone. Attributes and elements of other namespaces are allowed everywhere.
 
 use super::row::{AttributeRow, ElementRow};
-use super::{ELEMENTS, children_of};
+use super::{SCRIPTS, Vocabulary};
 use std::fmt::Write;
 
-/// Returns the schema as a text in the XML syntax of RELAX NG.
+/// Returns the schema of scripts as a text in the XML syntax of RELAX NG.
 pub fn schema() -> String {
+    SCRIPTS.schema()
+}
+
+impl Vocabulary {
+    /// Returns the schema as a text in the XML syntax of RELAX NG.
+    pub fn schema(&self) -> String {
+        written(self)
+    }
+}
+
+fn written(vocabulary: &Vocabulary) -> String {
     let mut out = String::from(concat!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n",
         "<grammar xmlns=\"http://relaxng.org/ns/structure/1.0\"",
         " xmlns:a=\"http://relaxng.org/ns/compatibility/annotations/1.0\"",
         " datatypeLibrary=\"http://www.w3.org/2001/XMLSchema-datatypes\">\n",
-        "  <start><ref name=\"script\"/></start>\n",
     ));
-    for row in ELEMENTS {
-        define(&mut out, row);
+    let _ = writeln!(out, "  <start><ref name=\"{}\"/></start>", vocabulary.root.name);
+    for row in vocabulary.elements {
+        define(&mut out, vocabulary, row);
     }
     out.push_str(FOREIGN);
     out.push_str("</grammar>\n");
@@ -38,7 +49,7 @@ const FOREIGN: &str = concat!(
     "  </choice></zeroOrMore></define>\n",
 );
 
-fn define(out: &mut String, row: &'static ElementRow) {
+fn define(out: &mut String, vocabulary: &Vocabulary, row: &'static ElementRow) {
     let _ = writeln!(out, "  <define name=\"{0}\"><element name=\"{0}\">", row.name);
     let _ = writeln!(out, "    <a:documentation>{}</a:documentation>", escaped(row.help));
     let chosen = |attribute: &&AttributeRow| row.one_of.contains(&attribute.name);
@@ -59,7 +70,7 @@ fn define(out: &mut String, row: &'static ElementRow) {
     out.push_str(
         "    <ref name=\"foreign-attributes\"/>\n    <zeroOrMore><choice><ref name=\"foreign-element\"/>",
     );
-    for child in children_of(row) {
+    for child in vocabulary.children_of(row) {
         let _ = write!(out, "<ref name=\"{}\"/>", child.name);
     }
     out.push_str("</choice></zeroOrMore>\n  </element></define>\n");

@@ -61,6 +61,16 @@ pub(super) const SOURCE: ValueRow =
             && !text.contains(['\\', ':', '\0'])
             && parts().all(|part| !part.is_empty() && part != "..")
     });
+pub(super) const HASH: ValueRow =
+    ValueRow::new("the hash of a file, such as 0123456789abcdef", "[0-9a-f]{16}", |text, _| {
+        text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'a'..=b'f'))
+    });
+pub(super) const WHOLE: ValueRow =
+    ValueRow::new("a whole number from 0 to 65535", "[0-9]{1,5}", |text, _| text.parse::<u16>().is_ok());
+pub(super) const LENGTH: ValueRow =
+    ValueRow::new("a number from 0.1 to 100", "[0-9]*\\.?[0-9]+|[0-9]+\\.", |text, _| {
+        Decimal::parse(text).is_some_and(|number| (0.1..=100.0).contains(&number.to_f64()))
+    });
 pub(super) const TIME: ValueRow =
     ValueRow::new("a time of 0 or more, such as 1.5, 250ms, 36f or 1:05.5", TIME_PATTERN, |text, rate| {
         parse_time(text, rate).is_some_and(|time| time >= StageTime::ZERO)

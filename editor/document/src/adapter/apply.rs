@@ -89,7 +89,9 @@ fn only_named(
             | Op::Insert(..)
             | Op::Remove(_)
             | Op::Move(..)
-            | Op::Skeleton(..) => None,
+            | Op::Skeleton(..)
+            | Op::Text(..)
+            | Op::Texts(_) => None,
         };
         if let Some(bone) = bone {
             return Err(EditError::Unnamed(bone));

@@ -167,6 +167,9 @@ pub enum EditError {
         "no key of the layer \"{0}\" gives this pose: its weight is 0 there, or a layer above it hides it"
     )]
     HiddenByLayer(String),
+    /// A text cannot be edited.
+    #[error(transparent)]
+    Text(#[from] super::TextEditError),
     /// The edit would change nothing.
     #[error("{0}")]
     Nothing(&'static str),

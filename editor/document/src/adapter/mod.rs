@@ -33,6 +33,7 @@ mod pending;
 pub(crate) mod plan;
 mod record_bone;
 pub(crate) mod slot;
+mod texts;
 mod times;
 
 pub use apply::Inverse;
@@ -48,6 +49,7 @@ pub(crate) use layer_record::{LAYERS, unused_layers};
 pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose, PendingShape};
 pub use slot::{ChannelChanges, LayerVersions, TakeId, TakeVersions};
+pub use texts::{TextEditError, TextFile, TextFiles};
 
 use crate::ModelShapes;
 use crate::edit::target::{BoneRef, TakeRef};
@@ -60,6 +62,8 @@ pub struct ModelAdapter {
     skeleton: Arc<Skeleton>,
     shapes: ModelShapes,
     slots: Vec<Arc<TakeVersions>>,
+    /// The texts of a scene or project; none for a model.
+    texts: TextFiles,
     /// Number of the next created take.
     next: u32,
 }
@@ -76,7 +80,8 @@ impl ModelAdapter {
             })
             .collect();
         let skeleton = Arc::clone(&animation.skeleton);
-        let mut adapter = Self { skeleton, shapes: ModelShapes::default(), next: slots.len() as u32, slots };
+        let (shapes, texts, next) = (ModelShapes::default(), TextFiles::default(), slots.len() as u32);
+        let mut adapter = Self { skeleton, shapes, next, slots, texts };
         adapter.restore_layers();
         adapter
     }
@@ -85,6 +90,17 @@ impl ModelAdapter {
     #[must_use]
     pub fn with_shapes(self, shapes: ModelShapes) -> Self {
         Self { shapes, ..self }
+    }
+
+    /// Returns the same with these texts.
+    #[must_use]
+    pub fn with_texts(self, texts: TextFiles) -> Self {
+        Self { texts, ..self }
+    }
+
+    /// Returns the texts of a scene or project; none for a model.
+    pub fn texts(&self) -> &TextFiles {
+        &self.texts
     }
 
     /// Returns the unchanged takes of a model.
@@ -97,7 +113,8 @@ impl ModelAdapter {
         let layers = slots.iter().flat_map(|slot| slot.layers()).map(|layer| layer.keys.id);
         let ids = slots.iter().map(|slot| slot.id).chain(layers);
         let next = ids.map(|id| id.0 + 1).max().unwrap_or_default();
-        Self { skeleton: Arc::clone(skeleton), shapes: ModelShapes::default(), slots: slots.to_vec(), next }
+        let (shapes, texts) = (ModelShapes::default(), TextFiles::default());
+        Self { skeleton: Arc::clone(skeleton), shapes, slots: slots.to_vec(), texts, next }
     }
 
     /// Returns the skeleton. Edits add root bones to it, and change nothing else.

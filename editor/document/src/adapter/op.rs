@@ -5,9 +5,11 @@ use super::change::KeyChange;
 use super::kind::AnyChannel;
 use super::pending::PendingAt;
 use super::slot::{ChannelChanges, ChannelContent, KeyContent, LayerVersions, TakeId, TakeVersions};
+use super::texts::TextFiles;
 use super::times::SharedTimes;
 use crate::edit::target::Property;
 use dragonfly_anim::data::{Bone, MorphTrack, Skeleton, Track};
+use dragonfly_anim::stage::splice::TextSplices;
 use std::sync::Arc;
 
 /// The address of a channel.
@@ -49,6 +51,10 @@ pub(crate) enum Op {
     Move(TakeId, usize),
     /// Replaces the skeleton and all takes, which are those of its bones.
     Skeleton(Arc<Skeleton>, Vec<Arc<TakeVersions>>),
+    /// Replaces parts of a text.
+    Text(usize, TextSplices),
+    /// Replaces the list of texts.
+    Texts(TextFiles),
 }
 
 impl ChannelContent {
@@ -90,6 +96,8 @@ impl Op {
                     let takes: usize = slots.iter().map(|slot| 2 + slot.layers().len()).sum();
                     skeleton.len() * (size_of::<Bone>() + takes * size_of::<Track>())
                 }
+                Self::Text(_, splices) => splices.list().iter().map(|splice| 48 + splice.text.len()).sum(),
+                Self::Texts(texts) => texts.list().iter().map(|file| 64 + file.text.len()).sum(),
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
     }
@@ -109,7 +117,9 @@ impl Op {
             | Self::Insert(..)
             | Self::Remove(_)
             | Self::Move(..)
-            | Self::Skeleton(..) => None,
+            | Self::Skeleton(..)
+            | Self::Text(..)
+            | Self::Texts(_) => None,
         }
     }
 }
@@ -169,6 +179,8 @@ impl ModelAdapter {
                 let skeleton = std::mem::replace(&mut self.skeleton, skeleton);
                 Op::Skeleton(skeleton, std::mem::replace(&mut self.slots, slots))
             }
+            Op::Text(index, splices) => Op::Text(index, self.texts.splice(index, &splices)),
+            Op::Texts(texts) => Op::Texts(std::mem::replace(&mut self.texts, texts)),
         }
     }
 

@@ -47,6 +47,20 @@ pub enum Misfit {
         /// Number of further missing keys of the channel.
         more: usize,
     },
+    /// The new version does not have the text.
+    #[error("the new version has no text {0:?}")]
+    NoText(String),
+    /// The new version has a text of the name of a new one.
+    #[error("the new version has a text of this name already")]
+    TextIsThere,
+    /// The new version has another text there.
+    #[error("line {line} of {text} is another one in the new version")]
+    OtherText {
+        /// Name of the text.
+        text: String,
+        /// Line of the old version, from 1.
+        line: usize,
+    },
     /// Steps were undone that the file contains.
     #[error("an undone step that was saved before cannot be undone in another version of the file")]
     UndoneSave,

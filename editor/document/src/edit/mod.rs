@@ -34,6 +34,7 @@ mod delete_take;
 mod detect_contacts;
 mod drop_pending;
 mod duplicate_keys;
+mod edit_script;
 mod examples;
 mod filter_keys;
 mod given_shapes;
@@ -78,6 +79,7 @@ mod retime_take;
 mod reverse_take;
 mod ripple_keys;
 mod scale_keys;
+mod script_labels;
 mod set_contacts;
 mod set_events;
 mod set_extras;
@@ -110,6 +112,7 @@ pub use blend_keys::KeyTarget;
 pub use bones::EditedBones;
 pub use contact_span::ContactSpan;
 pub use copied::{CopiedChannel, CopiedKey, CopiedShapeKey, CopiedShapes};
+pub use edit_script::{ScriptSplice, TextRef};
 pub use examples::Example;
 pub use filter_keys::CurveFilter;
 pub use given_shapes::GivenShapes;
@@ -121,6 +124,7 @@ pub use mode::{KeyInterpolation, LayerKind, NewKey, ResetTo};
 pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope, ShapeScope};
 pub use pose::{BonePose, PoseAt};
 pub use repeat_keys::{RepeatCount, RepeatMode};
+pub use script_labels::SCRIPT_LABELS;
 pub use set_layer_weights::LayerWeightKey;
 pub use set_many_tangents::TangentsAt;
 pub use set_shape_keys::ShapeKeyAt;
@@ -206,6 +210,7 @@ edits! {
     "set_shape_keys" => set_shape_keys::SetShapeKeys,
     "offset_shapes" => offset_shapes::OffsetShapes,
     "pend_shapes" => pend_shapes::PendShapes,
+    "script" => edit_script::EditScript,
 }
 
 #[cfg(test)]
@@ -240,7 +245,8 @@ mod tests {
     fn model() -> ModelAdapter {
         let skeleton = Arc::new(Skeleton { bones: BONES.map(bone).into() });
         let model = ModelAdapter::new(&AnimationData { skeleton, takes: Vec::new() });
-        let mut model = model.with_shapes(crate::shapes::tests::two_meshes());
+        let texts = crate::adapter::TextFiles::one("scene.xml", "<script version=\"1\"/>\n");
+        let mut model = model.with_shapes(crate::shapes::tests::two_meshes()).with_texts(texts);
         for line in [
             r#"{"edit":"create_take","name":"walk"}"#,
             r#"{"edit":"set","take":0,"time":0.5,"poses":[{"bone":0,"translation":[0,1,0]},{"bone":1,"rotation":[1,0,0,0]}]}"#,
@@ -269,7 +275,7 @@ mod tests {
             let changed = slot.changed();
             changed.map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec())).collect()
         };
-        assert_eq!(a.skeleton(), b.skeleton(), "{context}");
+        assert_eq!((a.skeleton(), a.texts()), (b.skeleton(), b.texts()), "{context}");
         assert_eq!(a.slots().len(), b.slots().len(), "{context}");
         for (a, b) in a.slots().iter().zip(b.slots()) {
             assert_eq!((a.id, a.origin), (b.id, b.origin), "{context}");

@@ -8,13 +8,14 @@
 //! | `{"do": "undo"}`, `{"do": "redo"}`, `{"do": "go_to", "steps": 3}` | undoes or redoes steps |
 //! | `{"do": "plan"}` | returns what a save would change |
 //! | `{"do": "save"}`, `{"do": "save", "to": "Fox2.glb"}` | saves |
-//! | `{"query": "takes"}` … | reads; see [`Query`] |
+//! | `{"query": "takes"}`, `{"query": "schedule"}` … | reads; see [`Query`] |
 //!
 //! The answer is `{"ok": …}` or `{"error": "…"}`; an error changes nothing. The value of `"id"` is returned with the
 //! answer. A session ends with the input.
 
 mod query;
 mod request;
+mod scene_answers;
 mod session;
 
 pub use query::Query;

@@ -1,7 +1,8 @@
 //! Queries: what a client can read of a document.
 
+use super::scene_answers::SceneAnswers;
 use crate::adapter::{ModelAdapter, TakeVersions};
-use crate::edit::{BoneRef, Property, TakeRef};
+use crate::edit::{BoneRef, Property, TakeRef, TextRef};
 use crate::history::Edited;
 use dragonfly_anim::sample::sample_track;
 use serde::Deserialize;
@@ -26,6 +27,18 @@ pub enum Query {
         /// The bone.
         bone: BoneRef,
     },
+    /// The texts of a scene or project: name, number of bytes.
+    Texts,
+    /// A text.
+    Text {
+        /// The text; the main one if absent.
+        #[serde(default)]
+        text: Option<TextRef>,
+    },
+    /// What is wrong with the script of a scene, and what is probably not meant: line, column, bytes, message, help.
+    Errors,
+    /// The length of a scene, and when each of its actions begins and ends, in seconds.
+    Schedule,
     /// The keys of a bone: times of each channel.
     Keys {
         /// The take.
@@ -40,8 +53,8 @@ impl Query {
     ///
     /// # Errors
     ///
-    /// The reason why there is no answer: a take or bone does not exist, or the time is not finite.
-    pub fn answer(&self, edited: &Edited) -> Result<Value, String> {
+    /// The reason why there is no answer: a take, bone or text does not exist, the time is not finite, or the script has errors.
+    pub(super) fn answer(&self, edited: &Edited, scene: &mut SceneAnswers) -> Result<Value, String> {
         let adapter = edited.adapter();
         match self {
             Self::Takes => Ok(adapter.slots().iter().map(|slot| take(slot)).collect()),
@@ -58,6 +71,10 @@ impl Query {
                 }
                 Ok(pose(adapter, slot, *time, bone))
             }
+            Self::Texts => Ok(SceneAnswers::texts(adapter.texts())),
+            Self::Text { text } => SceneAnswers::text(adapter, text.as_ref()),
+            Self::Errors => scene.errors(adapter.texts()),
+            Self::Schedule => scene.schedule(adapter.texts()),
             Self::Keys { take, bone } => {
                 let (slot, bone) = found(adapter, take, bone)?;
                 let track = slot.result.tracks.get(bone as usize);

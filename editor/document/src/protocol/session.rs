@@ -1,23 +1,22 @@
 //! A session: a document and its client.
 
+use super::scene_answers::SceneAnswers;
 use super::{ProtocolCommand, ProtocolRequest};
-use crate::images::ImageSurvey;
 use crate::open::Open;
 use crate::save_job::{SaveTarget, prepare};
 use crate::writing::Overwrite;
-use crate::{Change, Editable, FaultInjection, LoadedModel, OpenedModel};
-use dragonfly_anim::bounds::Bounds;
+use crate::{Change, Editable, FaultInjection, OpenedModel};
 use dragonfly_anim::format::{ChangeReport, SavePlan};
 use dragonfly_store::Autosave;
 use serde_json::{Value, json};
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Instant;
 
 /// A document that a client edits.
 pub struct Session {
     open: Open,
     autosave: Option<Autosave>,
+    scene: SceneAnswers,
 }
 
 impl Session {
@@ -28,24 +27,15 @@ impl Session {
 
     /// Starts with an opened file. Every edit is recorded in a journal in `autosave` before it is answered, if the model is a file.
     pub fn recorded(editable: Editable, autosave: Option<Autosave>) -> Self {
-        let loaded = LoadedModel {
-            conversion: Default::default(),
-            title: editable.title.clone(),
-            path: editable.path.clone(),
-            format: Some(editable.format()),
-            model: Arc::clone(&editable.model),
-            bounds: Bounds::of_points(&[]),
-            images: ImageSurvey::default(),
-            warnings: editable.warnings.clone(),
-            notes: Vec::new(),
-        };
+        let (loaded, texts) = (editable.loaded(), editable.texts());
         let autosave = autosave.filter(|_| loaded.path.is_some());
-        let mut open = Open::new(OpenedModel { loaded, editable: Ok(editable) }, autosave.clone());
+        let mut open = Open::new(OpenedModel { loaded, editable: Ok(editable), texts }, autosave.clone());
         if autosave.is_some() {
             // Sessions that only read leave no journal.
             open.journal_writer.begin_later(open.file.path.clone(), open.stamp());
         }
-        Self { open, autosave }
+        let scene = SceneAnswers::of(open.file.path.as_deref());
+        Self { open, autosave, scene }
     }
 
     /// Flushes what was recorded to the disk. To be called when no request waits.
@@ -102,7 +92,7 @@ impl Session {
 
     fn carry_out(&mut self, request: &ProtocolRequest) -> Result<Value, String> {
         let command = match request {
-            ProtocolRequest::Query(query) => return query.answer(&self.open.edited),
+            ProtocolRequest::Query(query) => return query.answer(&self.open.edited, &mut self.scene),
             ProtocolRequest::Command(command) => command,
         };
         let change = match command {

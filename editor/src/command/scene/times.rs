@@ -5,7 +5,7 @@ use crate::command::Failure;
 use crate::command::output::{print, print_json};
 use crate::command::run_command::RunCommand;
 use crate::command::table::{Side, Table};
-use dragonfly_anim::stage::table::schema;
+use dragonfly_anim::stage::table::{LINE_FILES, PROJECTS, SCRIPTS, Vocabulary};
 use dragonfly_document::LoadedScene;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -16,18 +16,46 @@ use std::path::PathBuf;
     group = clap::ArgGroup::new("script").required(true),
     after_help = "\
 Times are in seconds. The schema is in RELAX NG, for editors that complete and check XML; `dragonfly check` has better messages.\n\n\
-Examples:\n  dragonfly script duel.xml\n  dragonfly script --schema > script.rng"
+Examples:\n  dragonfly script duel.xml\n  dragonfly script --schema > script.rng\n  dragonfly script --schema project > project.rng"
 )]
 pub(in crate::command) struct ScriptArguments {
     /// A script of a scene (.xml)
     #[arg(value_name = "SCENE", group = "script")]
     file: Option<PathBuf>,
-    /// Print the schema of scripts
-    #[arg(long, group = "script", conflicts_with = "json")]
-    schema: bool,
+    /// Print the schema of scripts, or that of another kind of text
+    #[arg(
+        long,
+        group = "script",
+        conflicts_with = "json",
+        value_name = "KIND",
+        num_args = 0..=1,
+        default_missing_value = "script"
+    )]
+    schema: Option<SchemaKind>,
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
+}
+
+/// A kind of text that has a schema.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum SchemaKind {
+    /// The script of a scene
+    Script,
+    /// A project
+    Project,
+    /// A file of drawn lines
+    Lines,
+}
+
+impl SchemaKind {
+    fn vocabulary(self) -> &'static Vocabulary {
+        match self {
+            Self::Script => &SCRIPTS,
+            Self::Project => &PROJECTS,
+            Self::Lines => &LINE_FILES,
+        }
+    }
 }
 
 /// The times of a script.
@@ -54,9 +82,10 @@ struct ActionRow {
 
 impl RunCommand for ScriptArguments {
     fn run(self) -> Result<(), Failure> {
-        let Some(file) = self.file else {
-            return print(|out| out.write_all(schema().as_bytes()));
-        };
+        if let Some(kind) = self.schema {
+            return print(|out| out.write_all(kind.vocabulary().schema().as_bytes()));
+        }
+        let Some(file) = self.file else { return Err(Failure::input("SCENE", "is missing")) };
         let times = ScriptTimes::of(&load(&file)?);
         if self.json { print_json(&times) } else { print(|out| times.table().write(out)) }
     }

@@ -1,0 +1,118 @@
+//! Points along a line, by length.
+
+use super::fit::position;
+use glam::DVec3;
+
+/// Number of straight pieces of a curve.
+const PIECES: usize = 64;
+
+/// Points along a line, dense enough to measure it: 64 pieces a curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LineSamples {
+    points: Vec<DVec3>,
+    /// Length from the start to each point.
+    lengths: Vec<f64>,
+}
+
+/// A place on a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineSpot {
+    /// Length from the start, meters.
+    pub along: f64,
+    /// Position, meters.
+    pub position: DVec3,
+    /// Distance from what was asked for, meters.
+    pub distance: f64,
+}
+
+impl LineSamples {
+    /// Samples a chain of cubic Bézier curves with these control points, 3 n + 1 of them; others are left out at the end. A closed line ends
+    /// where it starts.
+    pub fn new(control: &[DVec3], is_closed: bool) -> Self {
+        let mut points: Vec<DVec3> = control.first().copied().into_iter().collect();
+        for curve in control.windows(4).step_by(3) {
+            let Ok(curve) = <&[DVec3; 4]>::try_from(curve) else { continue };
+            points.extend((1..=PIECES).map(|piece| position(curve, piece as f64 / PIECES as f64)));
+        }
+        if is_closed {
+            points.extend(points.first().copied());
+        }
+        points.dedup();
+        let mut length = 0.0;
+        let mut lengths: Vec<f64> = points.first().map(|_| 0.0).into_iter().collect();
+        for pair in points.windows(2) {
+            length += pair[0].distance(pair[1]);
+            lengths.push(length);
+        }
+        Self { points, lengths }
+    }
+
+    /// Returns the points, meters.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// Returns the length, meters; 0 without points.
+    pub fn length(&self) -> f64 {
+        self.lengths.last().copied().unwrap_or(0.0)
+    }
+
+    /// Returns the position after `along` meters, clamped to the line; `None` without points.
+    pub fn at(&self, along: f64) -> Option<DVec3> {
+        let next = self.lengths.partition_point(|&length| length < along);
+        let (Some(before), Some(after)) = (next.checked_sub(1), self.points.get(next)) else {
+            return self.points.get(next.min(self.points.len().checked_sub(1)?)).copied();
+        };
+        let [from, to] = [before, next].map(|index| self.lengths[index]);
+        Some(self.points[before].lerp(*after, (along - from) / (to - from)))
+    }
+
+    /// Returns the place that is nearest to a ray from `origin` along `direction`, which has unit length; `None` without points.
+    pub fn nearest_to_ray(&self, origin: DVec3, direction: DVec3) -> Option<LineSpot> {
+        self.nearest(|start, end| {
+            let (along, away) = (end - start, start - origin);
+            // The closest points of two lines, and then of the part of each that counts.
+            let (a, b, c) = (along.dot(along), along.dot(direction), along.dot(away));
+            let f = direction.dot(away);
+            let square = a - b * b;
+            let share = if square > a * 1e-12 { ((b * f - c) / square).clamp(0.0, 1.0) } else { 0.0 };
+            let ahead = (b * share + f).max(0.0);
+            let share = if a > 0.0 { ((b * ahead - c) / a).clamp(0.0, 1.0) } else { 0.0 };
+            let position = start + along * share;
+            let ahead = (position - origin).dot(direction).max(0.0);
+            (share, position.distance(origin + direction * ahead))
+        })
+    }
+
+    /// Returns the place that is nearest to `point`; `None` without points.
+    pub fn nearest_to(&self, point: DVec3) -> Option<LineSpot> {
+        self.nearest(|start, end| {
+            let along = end - start;
+            let square = along.length_squared();
+            let share =
+                if square > 0.0 { ((point - start).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+            (share, (start + along * share).distance(point))
+        })
+    }
+
+    /// Returns the place with the smallest distance; `of_piece` returns share and distance on a piece.
+    fn nearest(&self, of_piece: impl Fn(DVec3, DVec3) -> (f64, f64)) -> Option<LineSpot> {
+        let [first, ..] = self.points[..] else { return None };
+        let mut found: Option<LineSpot> = None;
+        let mut consider = |[start, end]: [DVec3; 2], [from, to]: [f64; 2]| {
+            let (share, distance) = of_piece(start, end);
+            if found.is_none_or(|best| distance < best.distance) {
+                let (along, position) = (from + (to - from) * share, start + (end - start) * share);
+                found = Some(LineSpot { along, position, distance });
+            }
+        };
+        for (points, lengths) in self.points.windows(2).zip(self.lengths.windows(2)) {
+            consider([points[0], points[1]], [lengths[0], lengths[1]]);
+        }
+        // A line of one point is a piece that stays there; nothing else has a place on it.
+        if self.points.len() == 1 {
+            consider([first, first], [0.0, 0.0]);
+        }
+        found
+    }
+}

@@ -1,0 +1,158 @@
+//! Projects: the models, scripts, drawn lines and movies that belong together, as an XML text.
+//!
+//! ```
+//! use dragonfly_anim::stage::project::StageProject;
+//! use dragonfly_anim::stage::script::StageScript;
+//!
+//! let text = r#"<project version="1" fps="30">
+//!   <models>
+//!     <model id="anna" src="models/anna.glb"/>
+//!   </models>
+//!   <cast>
+//!     <camera id="wide" at="0 1.6 9"/>
+//!   </cast>
+//!   <script id="main" src="duel.xml"/>
+//! </project>"#;
+//! let project = StageProject::read(text).map_err(|errors| errors[0].in_file("duel.meproj"))?;
+//! assert_eq!(project.source_of("anna"), "models/anna.glb");
+//!
+//! // The cast of the project is that of its scripts too.
+//! let duel = r#"<script version="1"><cast><role id="a" model="anna"/></cast><shot who="wide"/></script>"#;
+//! let script = StageScript::read_of(duel, Some(&project)).map_err(|errors| errors[0].in_file("duel.xml"))?;
+//! assert_eq!((script.things().len(), script.rate().frame(30).seconds()), (2, 1.0));
+//! # Ok::<(), String>(())
+//! ```
+//!
+//! [`crate::stage::table::PROJECTS`] has every element and attribute. All files are named relative to the project, with `/`, and none of
+//! them is above its folder. Changes of a project are splices of its text ([`crate::stage::splice`]), as those of scripts are.
+
+use super::script::{ErrorList, ScriptElement, ScriptError, ScriptTree, read_tree, suggestion};
+use super::table::{ElementGroup, PROJECTS};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A project whose names are resolved. Never changes.
+#[derive(Clone, Debug)]
+pub struct StageProject {
+    tree: ScriptTree,
+}
+
+/// Attributes that name an element of the project: element, attribute, and the name of the element that is meant.
+const NAMED: [(&str, &str, &str); 3] =
+    [("edits", "of", "model"), ("clips", "onto", "model"), ("movie", "script", "script")];
+
+/// Elements of which a project has at most one.
+const SINGLE: [&str; 4] = ["models", "scene", "cast", "lines"];
+
+impl StageProject {
+    /// Reads a project. Allocates in proportion to the text; the text is shared, not copied.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong, in the order of the text, as [`crate::stage::script::StageScript::read`] reports it.
+    pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
+        let text = text.into();
+        let project = Self { tree: read_tree(&text, &PROJECTS)? };
+        let lines = project.tree.lines().clone();
+        let mut errors = ErrorList::new(&lines);
+        project.check_names(&mut errors);
+        project.check_single(&mut errors);
+        if errors.is_empty() { Ok(project) } else { Err(errors.sorted()) }
+    }
+
+    /// Returns the text and its elements; the first one is the project.
+    pub fn tree(&self) -> &ScriptTree {
+        &self.tree
+    }
+
+    /// Returns the elements called `name` outside of the cast, in the order of the text.
+    pub fn elements_called<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a ScriptElement> {
+        let elements = self.tree.elements().iter();
+        elements.filter(move |element| element.row.name == name && element.row.group != ElementGroup::Thing)
+    }
+
+    /// Returns the element called `name` with this id.
+    pub fn element_with_id(&self, name: &str, id: &str) -> Option<&ScriptElement> {
+        self.tree
+            .elements()
+            .iter()
+            .find(|element| element.row.name == name && element.value("id") == Some(id))
+    }
+
+    /// Returns the file that scripts mean by `model`: that of the model with this id, or else the text itself.
+    pub fn source_of<'a>(&'a self, model: &'a str) -> &'a str {
+        self.element_with_id("model", model).and_then(|found| found.value("src")).unwrap_or(model)
+    }
+
+    /// Returns the files of its scripts, in the order of the text.
+    pub fn scripts(&self) -> impl Iterator<Item = &str> {
+        self.elements_called("script").filter_map(|script| script.value("src"))
+    }
+
+    /// Returns the file of its lines; `None` where it has none.
+    pub fn lines(&self) -> Option<&str> {
+        self.elements_called("lines").find_map(|lines| lines.value("src"))
+    }
+
+    /// Returns every file that it names, each once, in the order of the text. Files that are written, such as movies, are left out.
+    pub fn files(&self) -> Vec<&str> {
+        let mut files = Vec::new();
+        for element in self.tree.elements() {
+            for name in ["src", "model", "map", "sky"] {
+                let written = element.attribute(name).map(|attribute| &*attribute.value);
+                let file = written.map(|file| if name == "model" { self.source_of(file) } else { file });
+                if let Some(file) = file.filter(|file| !files.contains(file)) {
+                    files.push(file);
+                }
+            }
+        }
+        files
+    }
+
+    /// Returns the things of its cast for a script, with their bytes at `end`, the end of the script's text.
+    pub(super) fn shared_things(&self, end: usize) -> impl Iterator<Item = ScriptElement> {
+        let things = self.tree.elements().iter().filter(|element| element.row.group == ElementGroup::Thing);
+        things.map(move |thing| {
+            let mut thing = thing.clone();
+            (thing.parent, thing.is_shared) = (None, true);
+            (thing.range, thing.name) = (end..end, end..end);
+            for attribute in &mut thing.attributes {
+                (attribute.range, attribute.name) = (end..end, end..end);
+                attribute.value_range = end..end;
+            }
+            thing
+        })
+    }
+
+    /// Checks that ids are unique, and that what is named is there.
+    fn check_names(&self, errors: &mut ErrorList) {
+        let mut ids: HashMap<&str, &ScriptElement> = HashMap::new();
+        for element in self.tree.elements() {
+            let Some(id) = element.value("id") else { continue };
+            if let Some(first) = ids.insert(id, element) {
+                let place = errors.place(first.range.start);
+                let message = format!("the id \"{id}\" is used at {place} already");
+                errors.add(element.value_range("id"), message, "an id names one part of a project");
+            }
+        }
+        for (name, attribute, kind) in NAMED {
+            for element in self.elements_called(name) {
+                let Some(id) = element.value(attribute) else { continue };
+                if self.element_with_id(kind, id).is_none() {
+                    let known = self.elements_called(kind).filter_map(|element| element.value("id"));
+                    let help = suggestion(id, &format!("{kind}s"), known);
+                    errors.add(element.value_range(attribute), format!("there is no {kind} \"{id}\""), help);
+                }
+            }
+        }
+    }
+
+    /// Checks that nothing is there twice that there is once.
+    fn check_single(&self, errors: &mut ErrorList) {
+        for name in SINGLE {
+            for second in self.elements_called(name).skip(1) {
+                errors.add(second.name.clone(), format!("a project has one <{name}>"), "");
+            }
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Replaces parts of a text of the document: of the script of a scene, or of a project.
+
+use super::kind::EditKind;
+use super::map_references::MapReferences;
+use super::reference_map::ReferenceMap;
+use super::script_labels::SCRIPT_LABELS;
+use super::{Arbitrary, EditedBones, Example, Misfit, TakeRef};
+use crate::adapter::op::Op;
+use crate::adapter::plan::Transaction;
+use crate::adapter::{EditError, ModelAdapter, TextEditError, TextFile, TextFiles};
+use dragonfly_anim::data::Skeleton;
+use dragonfly_anim::stage::script::MOST_BYTES;
+use dragonfly_anim::stage::splice::{TextSplice, TextSplices};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Number of characters of a text that messages show.
+const SHOWN: usize = 40;
+
+/// Replaces parts of a text of the document: of the script of a scene, or of a file of a project.
+///
+/// All places are those of the text before the edit. It is refused where the text has something else there than the edit says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EditScript {
+    /// The text; the main file of the document if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub text: Option<TextRef>,
+    /// Whether the project gets a new text of that name, which is empty before the edit. Its file is written with the next save.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub create: bool,
+    /// The replacements, which must not overlap, in any order; at least one.
+    pub splices: Vec<ScriptSplice>,
+    /// What the edit does, in a few words, such as `Move clip`; `Edit script` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+}
+
+/// One replacement of a part of a text.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScriptSplice {
+    /// Byte of the text at which the old part begins, from 0. It must be the first byte of a character.
+    pub at: usize,
+    /// The part that is replaced, as it is now; empty if absent, for an insertion.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub old: String,
+    /// What stands there afterwards; empty if absent, for a deletion.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub new: String,
+}
+
+/// A text of the document, by its index in the list of texts or by its name.
+///
+/// In JSON a number or a string.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum TextRef {
+    /// Index in the list of texts, from 0 for the main file.
+    Index(usize),
+    /// Its path relative to the folder of the main file, with `/` between its parts.
+    Name(String),
+}
+
+impl fmt::Display for TextRef {
+    /// Writes a name in quotes and a number without.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Index(index) => write!(out, "{index}"),
+            Self::Name(name) => write!(out, "{name:?}"),
+        }
+    }
+}
+
+impl EditScript {
+    /// Returns the edit that makes `splices` in `text`, which is the present text.
+    pub fn of(text: &str, splices: &TextSplices, label: &str) -> Self {
+        let splice = |splice: &TextSplice| ScriptSplice {
+            at: splice.range.start,
+            old: text.get(splice.range.clone()).unwrap_or_default().to_owned(),
+            new: splice.text.clone(),
+        };
+        let splices = splices.list().iter().map(splice).collect();
+        Self { text: None, create: false, splices, label: Some(label.to_owned()) }
+    }
+
+    /// Returns the edit that leads from `old` to `new` by replacing one part, the shortest; `None` where they are the same.
+    pub fn between(old: &str, new: &str, label: Option<&str>) -> Option<Self> {
+        if old == new {
+            return None;
+        }
+        let same = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b).count();
+        let start = (0..=same).rev().find(|&at| old.is_char_boundary(at) && new.is_char_boundary(at))?;
+        let ends = old[start..].bytes().rev().zip(new[start..].bytes().rev());
+        let same = ends.take_while(|(a, b)| a == b).count();
+        let is_boundary =
+            |tail: &usize| old.is_char_boundary(old.len() - tail) && new.is_char_boundary(new.len() - tail);
+        let tail = (0..=same).rev().find(is_boundary)?;
+        let splice = ScriptSplice {
+            at: start,
+            old: old[start..old.len() - tail].to_owned(),
+            new: new[start..new.len() - tail].to_owned(),
+        };
+        let label = label.map(str::to_owned);
+        Some(Self { text: None, create: false, splices: vec![splice], label })
+    }
+
+    /// Returns the texts of a project with the new one.
+    ///
+    /// # Errors
+    ///
+    /// The reason why the document cannot get it.
+    pub(crate) fn created_in(&self, texts: &TextFiles) -> Result<TextFiles, TextEditError> {
+        let Some(TextRef::Name(name)) = &self.text else { return Err(TextEditError::NoName) };
+        let reason = match crate::folder::checked(name) {
+            Err(error) => Some(error.to_string()),
+            Ok(_) if texts.is_empty() => Some("the document has no texts".to_owned()),
+            Ok(_) if texts.called(name).is_some() => Some("the document has this text already".to_owned()),
+            Ok(_) => None,
+        };
+        if let Some(reason) = reason {
+            return Err(TextEditError::NotCreated { name: name.clone(), reason });
+        }
+        let empty = TextFile { name: name.as_str().into(), text: "".into() };
+        let text = self.splices_in(&empty)?.apply("").into();
+        Ok(texts.list().iter().cloned().chain([TextFile { text, ..empty }]).collect())
+    }
+
+    /// Returns the replacements, checked against the text.
+    ///
+    /// # Errors
+    ///
+    /// The reason why they do not fit it.
+    pub fn splices_in(&self, file: &TextFile) -> Result<TextSplices, TextEditError> {
+        let text = &file.text;
+        let mut size = text.len();
+        for splice in &self.splices {
+            let fits = text.get(splice.at..).is_some_and(|rest| rest.starts_with(&splice.old));
+            if !fits {
+                let old = splice.old.chars().take(SHOWN).collect();
+                return Err(TextEditError::OtherText { name: file.name.clone(), at: splice.at, old });
+            }
+            size += splice.new.len();
+        }
+        if self.splices.iter().all(|splice| splice.old == splice.new) {
+            return Err(TextEditError::Nothing);
+        }
+        let splice = |splice: &ScriptSplice| TextSplice {
+            range: splice.at..splice.at + splice.old.len(),
+            text: splice.new.clone(),
+        };
+        let splices = TextSplices::new(self.splices.iter().map(splice).collect());
+        let splices = splices.ok_or(TextEditError::Overlap)?;
+        let size = size - self.splices.iter().map(|splice| splice.old.len()).sum::<usize>();
+        // A text that was too large when it was opened may become smaller.
+        if size > MOST_BYTES && size > text.len() { Err(TextEditError::TooLarge(size)) } else { Ok(splices) }
+    }
+}
+
+impl MapReferences for EditScript {
+    /// Places in a text are mapped by what merges the texts.
+    fn mapped(&self, _map: &mut ReferenceMap<'_>) -> Result<Self, Misfit> {
+        Ok(self.clone())
+    }
+}
+
+impl EditKind for EditScript {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"script","splices":[{"at":212,"old":"Walk","new":"Run"}],"label":"Choose take"}"#,
+        description: "Replaces \"Walk\" at byte 212 of a scene's script by \"Run\"; \"text\" names another file of a project.",
+    };
+
+    fn label(&self) -> &'static str {
+        let own = self.label.as_deref();
+        SCRIPT_LABELS.iter().find(|label| Some(**label) == own).copied().unwrap_or("Edit script")
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        None
+    }
+
+    fn bones(&self, _skeleton: &Skeleton) -> EditedBones {
+        EditedBones::Named(BTreeSet::new())
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let texts = work.adapter().texts();
+        if self.create {
+            let texts = self.created_in(texts)?;
+            work.perform(Op::Texts(texts));
+            return Ok(());
+        }
+        let index = texts.find(self.text.as_ref())?;
+        let splices = self.splices_in(&texts.list()[index])?;
+        work.perform(Op::Text(index, splices));
+        Ok(())
+    }
+
+    fn detail(&self, adapter: &ModelAdapter) -> Option<String> {
+        // A label of another version of the program is still shown.
+        let own = self.label.as_deref().filter(|own| !SCRIPT_LABELS.contains(own));
+        let texts = adapter.texts().list();
+        let file = adapter.texts().find(self.text.as_ref()).ok().filter(|_| texts.len() > 1);
+        let file = file.and_then(|index| texts.get(index)).map(|file| &*file.name);
+        let parts: Vec<&str> = own.into_iter().chain(file).collect();
+        (!parts.is_empty()).then(|| crate::about::shortened(&parts.join("  ·  ")))
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let splice = |from: &mut Arbitrary<'_>| ScriptSplice {
+            at: from.below(12),
+            old: String::new(),
+            new: from.choice(["", "x", " speed=\"2\"", "<wait dur=\"1\"/>", "é"]).to_owned(),
+        };
+        let splices = (0..1 + from.below(3)).map(|_| splice(from)).collect();
+        let text = from.optional(|from| TextRef::Index(from.below(2)));
+        let label = from.optional(|from| from.choice(["Move clip", "Fly"]).to_owned());
+        let create = from.below(4) == 0;
+        let text = if create { Some(TextRef::Name(format!("new-{}.xml", from.below(3)))) } else { text };
+        Self { text, create, splices, label }
+    }
+}

@@ -1,0 +1,70 @@
+//! Edits of the texts of an old version of a document, moved to the texts of a new one.
+
+use super::adapter::TextFiles;
+use super::edit::{EditScript, Misfit, TextRef};
+use super::text_merge::TextMerge;
+
+/// For each text of the old version where it differs from that of the new one, and which one that is.
+#[derive(Clone, Debug, Default)]
+pub(super) struct MergedTexts(Vec<Option<(usize, TextMerge)>>);
+
+impl MergedTexts {
+    /// Pairs the main texts, and the others by their names.
+    pub(super) fn between(old: &TextFiles, new: &TextFiles) -> Self {
+        let pair = |(index, file): (usize, &super::adapter::TextFile)| {
+            let other = match index {
+                0 => 0,
+                _ => new.list().iter().position(|other| other.name == file.name)?,
+            };
+            let merge = TextMerge::between(&file.text, &new.list().get(other)?.text);
+            Some((other, merge))
+        };
+        Self(old.list().iter().enumerate().map(pair).collect())
+    }
+
+    /// Returns the edit for the new texts; `None` where they have the same change already. `after` are the old texts after the edit.
+    ///
+    /// # Errors
+    ///
+    /// The reason why it does not fit.
+    pub(super) fn mapped(
+        &mut self,
+        edit: &EditScript,
+        before: &TextFiles,
+        after: &TextFiles,
+        new: &TextFiles,
+    ) -> Result<Option<EditScript>, Misfit> {
+        if edit.create {
+            let is_there = after.list().last().is_some_and(|file| new.called(&file.name).is_some());
+            if is_there {
+                // It has other contents, so that later edits of it do not fit either.
+                self.0.push(None);
+                return Err(Misfit::TextIsThere);
+            }
+            self.0.push(Some((new.list().len(), TextMerge::default())));
+            return Ok(Some(edit.clone()));
+        }
+        let refused = |error| Misfit::Refused(super::adapter::EditError::Text(error));
+        let index = before.find(edit.text.as_ref()).map_err(refused)?;
+        let file = &before.list()[index];
+        let splices = edit.splices_in(file).map_err(refused)?;
+        let missing = || Misfit::NoText(file.name.to_string());
+        let (other, merge) = self.0.get_mut(index).and_then(Option::as_mut).ok_or_else(missing)?;
+        let (Some(old_after), Some(new)) = (after.list().get(index), new.list().get(*other)) else {
+            return Err(missing());
+        };
+        match merge.mapped(&splices) {
+            Ok(mapped) => {
+                merge.follow(&splices);
+                let label = edit.label.clone();
+                let text = (*other > 0).then_some(TextRef::Index(*other));
+                Ok(Some(EditScript { text, label, ..EditScript::of(&new.text, &mapped, "") }))
+            }
+            Err(at) => {
+                let line = file.text[..at].lines().count().max(1);
+                let is_there = merge.diverge(&splices, &old_after.text, &new.text);
+                if is_there { Ok(None) } else { Err(Misfit::OtherText { text: file.name.to_string(), line }) }
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Reads the texts of a document: the script of a scene, or a project with its scripts and its file of lines.
+
+use super::adapter::{TextFile, TextFiles};
+use super::beside::BesideStamps;
+use super::scene_source::is_script;
+use super::source::{LoadError, file_name};
+use super::{FileAccessError, Folder, read_file};
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::MOST_BYTES;
+use dragonfly_store::{FileStamp, RealFiles};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Texts as they were read.
+#[derive(Debug)]
+pub(super) struct ReadTexts {
+    /// The main file.
+    pub(super) path: PathBuf,
+    /// The texts, that of the main file first.
+    pub(super) texts: TextFiles,
+    /// The state of the main file.
+    pub(super) stamp: Option<FileStamp>,
+    /// The states of the other files.
+    pub(super) beside: BesideStamps,
+    /// Files that could not be read, one sentence each.
+    pub(super) warnings: Vec<String>,
+}
+
+/// Returns whether a file is a script of a scene or a project by its name.
+pub fn is_scene(path: &Path) -> bool {
+    is_script(path) || is_project(path)
+}
+
+/// Returns whether a file is a project by its name.
+pub fn is_project(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("meproj"))
+}
+
+/// Reads the texts of the document at `path`.
+///
+/// # Errors
+///
+/// A file cannot be read, is no UTF-8 text, is too large, or changed while it was read.
+pub(super) fn read_texts(path: &Path) -> Result<ReadTexts, LoadError> {
+    let (text, stamp) = read_stamped(path)?;
+    let name = file_name(path).into();
+    let mut read = ReadTexts {
+        path: path.to_owned(),
+        texts: TextFiles::default(),
+        stamp,
+        beside: BesideStamps::default(),
+        warnings: Vec::new(),
+    };
+    let mut files = vec![TextFile { name, text: Arc::clone(&text) }];
+    // A project with errors is opened without its files: its text is there to be corrected.
+    if is_project(path)
+        && let Ok(project) = StageProject::read(text)
+    {
+        read.files_of(&project, &mut files)?;
+    }
+    read.texts = files.into_iter().collect();
+    Ok(read)
+}
+
+impl ReadTexts {
+    /// Reads the scripts and the lines of a project.
+    fn files_of(&mut self, project: &StageProject, files: &mut Vec<TextFile>) -> Result<(), LoadError> {
+        let failed = |reason| LoadError::File { path: self.path.clone(), reason };
+        let folder = Folder::of(&self.path).map_err(failed)?;
+        for name in project.scripts().chain(project.lines()) {
+            if files.iter().any(|file| &*file.name == name) {
+                continue;
+            }
+            let read = folder.path_of(name).map_err(|error| error.to_string());
+            let read = read.and_then(|path| {
+                let (text, stamp) = read_stamped(&path).map_err(|error| error.to_string())?;
+                Ok((path, text, stamp))
+            });
+            match read {
+                Ok((path, text, stamp)) => {
+                    if let Some(stamp) = stamp {
+                        self.beside.add(path, stamp);
+                    }
+                    files.push(TextFile { name: name.into(), text });
+                }
+                Err(reason) => self.warnings.push(format!("{name}: {reason}")),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads a text, with the state of its file.
+fn read_stamped(path: &Path) -> Result<(Arc<str>, Option<FileStamp>), LoadError> {
+    let failed = |reason: FileAccessError| LoadError::File { path: path.to_owned(), reason };
+    let wrong = |reason: String| LoadError::Format { title: file_name(path), reason };
+    let before = FileStamp::before(&RealFiles, path).ok();
+    let bytes = read_file(path, MOST_BYTES as u64).map_err(failed)?;
+    let stamp = match before.map(|before| FileStamp::of_read(&RealFiles, path, &before, &bytes)) {
+        Some(Ok(stamp)) => Some(stamp),
+        Some(Err(error)) if error.kind() == std::io::ErrorKind::WouldBlock => {
+            return Err(wrong("the file changed while it was read; open it again".to_owned()));
+        }
+        // A change that cannot be detected now will be noticed when the file is saved.
+        Some(Err(_)) | None => None,
+    };
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |last| last.chars().count()) + 1;
+        wrong(format!("{line}:{column}: this is not UTF-8 text; save the file as UTF-8"))
+    })?;
+    Ok((text.into(), stamp))
+}
