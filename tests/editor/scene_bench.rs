@@ -77,6 +77,7 @@ impl SceneStage {
             plan: self.live.plan().cloned(),
             errors: self.live.errors().into(),
             models: Arc::clone(&self.models),
+            ..SceneView::default()
         })
     }
 }

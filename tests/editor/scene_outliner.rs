@@ -80,6 +80,20 @@ fn a_thing_that_actions_name_is_not_deleted() {
 }
 
 #[test]
+fn a_value_typed_into_the_attributes_is_written_and_a_wrong_one_is_refused() {
+    let mut window = window();
+    window.get_by_label("wide, camera").click();
+    window.run_steps(2);
+    type_into(&mut window, "lens", "50mm", Key::Enter);
+    let line = r#"<camera id="wide"  at="0 1 5" look="0 0.5 0" lens="50mm"/>"#;
+    assert_eq!(new_lines(FOXES, &text(&window)), [line]);
+    type_into(&mut window, "lens", "wide", Key::Enter);
+    assert_eq!(new_lines(FOXES, &text(&window)), [line], "no focal length");
+    type_into(&mut window, "look", "nobody", Key::Enter);
+    assert_eq!(new_lines(FOXES, &text(&window)), [line], "nothing is called that");
+}
+
+#[test]
 fn a_scene_has_its_panels_and_a_model_has_its_own() {
     let window = window();
     for label in ["Scene", "Scene timeline", "Script", "History"] {

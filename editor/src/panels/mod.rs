@@ -128,6 +128,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<layers::Layers>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
+        Box::<scene::attributes::SceneAttributes>::default(),
         Box::<history::History>::default(),
         Box::<timeline::TimelinePanel>::default(),
         Box::<scene::timeline::SceneTimeline>::default(),

@@ -47,6 +47,7 @@ panels! {
     "differences", [520.0, 220.0], the_differences_panel_looks_as_stored;
     "outliner", [250.0, 520.0], the_scene_panel_looks_as_stored;
     "scene_timeline", [720.0, 300.0], the_scene_timeline_looks_as_stored;
+    "scene_attributes", [300.0, 420.0], the_attributes_panel_looks_as_stored;
     "script", [620.0, 360.0], the_script_panel_looks_as_stored;
 }
 

@@ -153,7 +153,7 @@ fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effec
 }
 
 /// Runs a command, or reports why it cannot be run.
-fn run(workspace: &mut Workspace, command: &commands::Command) -> Option<Effect> {
+fn run(workspace: &mut Workspace, command: &'static commands::Command) -> Option<Effect> {
     let command = scene::counterpart(workspace, command);
     if !command.when.holds(&workspace.read()) {
         workspace.say(MessageSeverity::Info, command.when.reason());

@@ -23,7 +23,7 @@ const COUNTERPARTS: &[(Id, Id)] = &[
 ];
 
 /// Returns the command that is run in place of another one while a scene is open.
-pub(in crate::panels) fn counterpart<'a>(workspace: &Workspace, command: &'a Command) -> &'a Command {
+pub(in crate::panels) fn counterpart(workspace: &Workspace, command: &'static Command) -> &'static Command {
     if workspace.read().scene().is_none() {
         return command;
     }

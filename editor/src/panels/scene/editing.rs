@@ -7,7 +7,7 @@ use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{Edit, EditScript};
+use dragonfly_document::edit::{Edit, EditScript, TextRef};
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{Change, SceneView};
 use std::collections::BTreeSet;
@@ -258,7 +258,9 @@ impl SceneEditing {
             return Ok(None);
         }
         let text: Arc<str> = change.text.as_str().into();
+        let file = (scene.texts.list().len() > 1).then(|| TextRef::Name(scene.name.to_string()));
         let edit = EditScript::between(&base, &text, Some(change.label));
+        let edit = edit.map(|edit| EditScript { text: file, ..edit });
         self.sent = Some(SentText { text, number: None });
         self.gesture = change.gesture.map(|gesture| (gesture, base));
         Ok(match (edit, change.gesture) {

@@ -50,7 +50,7 @@ impl SuggestionList {
         let Some(count) = self.shown.as_ref().map(|shown| shown.items.len()) else {
             return SuggestionKey::Nothing;
         };
-        let mut take = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        let take = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         if take(Key::Escape) {
             self.shown = None;
             return SuggestionKey::Nothing;
