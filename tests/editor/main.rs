@@ -137,6 +137,7 @@ mod window_panics;
 mod window_reference;
 mod window_save;
 mod window_scale;
+mod window_scene;
 mod window_size;
 mod window_visit;
 mod wire;
