@@ -33,7 +33,7 @@ pub(crate) const FOXES: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
       <play who="anna" take="Run" begin="-0.5" fade-in="0.5" repeat="3"/>
     </seq>
     <move who="ben" path="aisle" take="Walk" begin="1"/>
-    <look who="ben" at="anna" begin="looks.sees" dur="2" fade-in="0.25" fade-out="0.25"/>
+    <look who="ben" at="anna" bones="b_Head_05" begin="looks.sees" dur="2" fade-in="0.25" fade-out="0.25"/>
     <change who="sun" property="strength" to="0.4" begin="2" dur="1.5"/>
     <title text="The End" begin="4" dur="1" fade-in="0.5"/>
   </par>

@@ -133,7 +133,7 @@ fn ends_and_fades_are_dragged_by_their_handles() {
     let bar = lanes.bar(&window, LOOK);
     let handle = pos2(bar.left() + (0.25 * lanes.scale.per_second()) as f32, bar.top() + 3.0);
     drag(&mut window, handle, 0.25, Modifiers::NONE);
-    let line = r#"<look who="ben" at="anna" begin="looks.sees" dur="2" fade-in="0.5" fade-out="0.25"/>"#;
+    let line = r#"<look who="ben" at="anna" bones="b_Head_05" begin="looks.sees" dur="2" fade-in="0.5" fade-out="0.25"/>"#;
     assert_eq!(new_lines(FOXES, &text(&window)), [line]);
 }
 

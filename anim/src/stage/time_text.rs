@@ -25,6 +25,19 @@ pub(super) fn time_text(time: StageTime, rate: StageRate, like: &str) -> String 
     format!("{sign}{text}")
 }
 
+/// Returns the latest time that is not after `time` and that is a whole number of milliseconds or of frames.
+///
+/// What depends on a length of a take is rarely either. Of less than a millisecond nothing is seen, and what begins a little earlier than a
+/// frame is on that frame.
+pub(super) fn readable(time: StageTime, rate: StageRate) -> StageTime {
+    let whole = if time < StageTime::ZERO { -time } else { time };
+    if seconds(whole, rate, PLEASANT).is_some() || frames(whole, rate, "f").is_some() {
+        return time;
+    }
+    let thousandth = TICKS_PER_SECOND / 1000;
+    StageTime::from_ticks(time.ticks().div_euclid(thousandth) * thousandth)
+}
+
 /// Returns a moment as it is written: a time, or `ID.POINT` with an offset unless that is zero. `like` is the text that it replaces.
 pub(super) fn moment_text(moment: &MomentText, rate: StageRate, like: &str) -> String {
     match moment {

@@ -182,15 +182,18 @@ fn a_trimmed_end_cuts_the_take_and_repeats_it_beyond_its_end() {
 
 #[test]
 fn ends_that_the_script_gives_stay_what_they_are() {
-    let scene = "<seq>\n<play id=\"a\" who=\"ben\" take=\"Survey\"/>\n</seq>\n<play id=\"x\" who=\"anna\" take=\"Survey\" repeat=\"fill\" end=\"a.end\"/>\n<look id=\"y\" who=\"anna\" at=\"ben\" dur=\"24f\"/>\n<shot id=\"s\" who=\"wide\"/>";
+    let scene = "<seq>\n<play id=\"a\" who=\"ben\" take=\"Survey\"/>\n</seq>\n<play id=\"x\" who=\"anna\" take=\"Survey\" repeat=\"fill\" end=\"a.end\"/>\n<look id=\"y\" who=\"anna\" at=\"ben\" bones=\"b_Head_05\" dur=\"24f\"/>\n<shot id=\"s\" who=\"wide\"/>";
     let trim = |id: &'static str, to: f64| {
         move |scene: &GestureScene<'_>| trim_end(scene, called(scene, id), seconds(to), Followers::Follow)
     };
     assert_eq!(
-        changed(scene, trim("x", 82.0 / 24.0 - 0.5)),
+        changed(scene, trim("x", 82.0 / 24.0 - 0.5 + 1e-4)),
         [r#"<play id="x" who="anna" take="Survey" repeat="fill" end="a.end-0.5"/>"#]
     );
-    assert_eq!(changed(scene, trim("y", 0.5)), [r#"<look id="y" who="anna" at="ben" dur="12f"/>"#]);
+    assert_eq!(
+        changed(scene, trim("y", 0.5)),
+        [r#"<look id="y" who="anna" at="ben" bones="b_Head_05" dur="12f"/>"#]
+    );
     let refusal = gesture(scene, trim("s", 1.0)).1.unwrap_err();
     assert_eq!(refusal.to_string(), "A shot ends where the next one begins");
 }
@@ -217,10 +220,8 @@ fn fades_speeds_and_repetitions_are_attributes_that_are_absent_where_they_are_th
         r#"<play id="b" who="anna" take="Survey" fade-in="6f" speed="-1.5"/>"#
     );
     assert_eq!(of(&|s, b| set_speed(s, b, 1.0)), "");
-    assert_eq!(
-        of(&|s, b| set_repeat(s, b, StageRepeat::Fill)),
-        r#"<play id="b" who="anna" take="Survey" fade-in="6f" repeat="fill"/>"#
-    );
+    let last = changed(SEQ, |scene| set_repeat(scene, called(scene, "c"), StageRepeat::Fill));
+    assert_eq!(last, [r#"<play id="c" who="anna" take="Run" begin="0.5" repeat="fill"/>"#]);
     let refused = |act: &dyn Fn(&GestureScene<'_>, usize) -> Result<String, GestureRefusal>| {
         gesture(SEQ, |scene| act(scene, called(scene, "b"))).1.unwrap_err().to_string()
     };
@@ -229,6 +230,7 @@ fn fades_speeds_and_repetitions_are_attributes_that_are_absent_where_they_are_th
         "The speed has to be a number other than 0; below 0 plays backwards"
     );
     assert_eq!(refused(&|s, b| set_speed(s, b, f64::NAN)), "The speed is too large");
+    assert!(refused(&|s, b| set_repeat(s, b, StageRepeat::Fill)).starts_with("this time depends on itself"));
     assert_eq!(refused(&|s, _| set_speed(s, 1, 1.0)), "<seq> has no speed");
 }
 
@@ -247,7 +249,8 @@ fn a_clip_that_others_refer_to_is_not_deleted_and_one_that_is_deleted_leaves_no_
         let plan = planned(text, &assets(&fox()));
         plan.schedule().times()[read(text).action_called("c").unwrap()].begin
     };
-    assert_eq!(begin(&new.unwrap()), begin(&old));
+    let moved = (begin(&old) - begin(&new.unwrap())).seconds();
+    assert!((0.0..0.001).contains(&moved), "it stays, up to a millisecond: {moved}");
 }
 
 #[test]
@@ -259,7 +262,8 @@ fn a_duplicate_begins_where_the_original_ends() {
             let times = |text: &str, id: &str| {
                 planned(text, &assets(&fox())).schedule().times()[read(text).action_called(id).unwrap()]
             };
-            assert_eq!(times(&new, &copy).begin, times(&old, id).end, "{new}");
+            let apart = (times(&old, id).end - times(&new, &copy).begin).seconds();
+            assert!((0.0..0.001).contains(&apart), "{apart}: {new}");
         }
     }
 }
@@ -279,7 +283,8 @@ fn a_cut_inserts_a_shot_after_the_one_that_is_seen() {
     assert_eq!(refusal("wide", 1.0), "\"wide\" is seen at that time already");
     assert_eq!(refusal("anna", 1.0), "\"anna\" is no camera of the cast");
     // Without any action, and in a script whose shots are in a sequence.
-    assert_eq!(changed("", cut("close", 2.0)), [r#"<shot who="close" begin="2"/>"#]);
+    let (_, new) = gesture("", cut("close", 2.0));
+    assert!(new.unwrap().contains("</cast><shot who=\"close\" begin=\"2\"/>\n"));
     let nested = "<seq begin=\"1\">\n  <shot who=\"wide\"/>\n</seq>";
     let (_, new) = gesture(nested, cut("close", 3.0));
     let new = new.unwrap();
@@ -297,7 +302,8 @@ fn a_new_clip_continues_the_sequence_of_its_role_or_begins_in_a_par() {
     let plan = planned(&new, &assets(&fox()));
     let script = read(&new);
     assert_eq!(script.actions()[1].children.len(), 4, "{new}");
-    assert_eq!(plan.schedule().times()[5].begin, seconds(9.0));
+    let begin = plan.schedule().times()[5].begin.seconds();
+    assert!((8.999..=9.0).contains(&begin), "{begin}");
     assert_eq!(changed(SEQ, add("ben", 0.25)), [r#"<play who="ben" take="Run" begin="0.25"/>"#]);
     assert_eq!(gesture(SEQ, add("wide", 0.0)).1.unwrap_err().to_string(), "A camera plays no takes");
 }

@@ -27,7 +27,7 @@ fn every_role_has_a_lane_and_every_action_a_bar_in_it() {
     let lanes = lanes(
         "<par><shot who=\"wide\"/><shot who=\"close\" begin=\"1\" blend=\"0.5\"/>\
          <seq><play who=\"anna\" take=\"Survey\" to=\"2\"/><play who=\"anna\" take=\"Run\" begin=\"-0.5\" fade-in=\"0.5\" dur=\"1\"/></seq>\
-         <look who=\"anna\" at=\"ben\" begin=\"0.5\" dur=\"1\"/><attach who=\"sword\" to=\"anna\" begin=\"1\"/>\
+         <look who=\"anna\" at=\"ben\" bones=\"b_Head_05\" begin=\"0.5\" dur=\"1\"/><attach who=\"sword\" to=\"anna\" begin=\"1\"/>\
          <turn who=\"anna\" to=\"ben\" begin=\"1\" dur=\"0.5\"/><wait dur=\"4\"/><title text=\"End\" begin=\"2\" dur=\"1\"/></par>",
     );
     assert_eq!(

@@ -59,7 +59,7 @@ fn elements_are_those_that_may_be_in_the_one_around() {
     assert_eq!(plain("|"), [""; 0]);
     assert_eq!(plain("<|"), ["script"]);
     assert_eq!(plain(&format!("{CAST}<par><pl|")), ["play", "place"]);
-    assert_eq!(plain("<script version=\"1\"><cast><ro|</cast>"), ["role"]);
+    assert_eq!(plain("<script version=\"1\"><cast><rol|</cast>"), ["role"]);
     assert_eq!(plain(&format!("{CAST}<play who=\"anna\" take=\"x\"><|")), ["at"]);
     assert_eq!(plain(&format!("{CAST}<par></|")), ["par"]);
     assert_eq!(plain(&format!("{CAST}<!-- <pl| -->")), [""; 0]);

@@ -193,7 +193,10 @@ fn crowd() -> String {
         }
         text.push_str("    </seq>\n");
         for look in 0..3 {
-            let _ = writeln!(text, "    <look who=\"{who}\" at=\"camera-0\" begin=\"{look}\" dur=\"4\"/>");
+            let _ = writeln!(
+                text,
+                "    <look who=\"{who}\" at=\"camera-0\" bones=\"b_Head_05\" begin=\"{look}\" dur=\"4\"/>"
+            );
         }
     }
     text.push_str("  </par>\n</script>\n");

@@ -5,10 +5,10 @@ use super::scene::GestureScene;
 use crate::stage::moment::MomentText;
 use crate::stage::script::ActionMoment;
 use crate::stage::time::StageTime;
-use crate::stage::time_text::moment_text;
+use crate::stage::time_text::{moment_text, readable};
 
 /// Returns the change of an attribute `begin` or `end` that moves it by `by`. A reference to another action stays one. A begin of zero
-/// after the usual one is not written.
+/// after the usual one is not written. Where the new time is no whole number of milliseconds or frames, it is up to a millisecond earlier.
 pub(super) fn moved_moment<'a>(
     scene: &GestureScene<'_>,
     action: usize,
@@ -20,10 +20,10 @@ pub(super) fn moved_moment<'a>(
     let rate = scene.script.rate();
     let value = match MomentText::parse(old, rate) {
         Some(MomentText::Of { action, point, offset }) => {
-            Some(MomentText::Of { action, point, offset: offset + by })
+            Some(MomentText::Of { action, point, offset: readable(offset + by, rate) })
         }
-        Some(MomentText::Offset(offset)) => Some(MomentText::Offset(offset + by)),
-        None => Some(MomentText::Offset(by)),
+        Some(MomentText::Offset(offset)) => Some(MomentText::Offset(readable(offset + by, rate))),
+        None => Some(MomentText::Offset(readable(by, rate))),
     };
     let value = value.filter(|moment| name != "begin" || *moment != MomentText::Offset(StageTime::ZERO));
     (own.element, name, value.map(|moment| moment_text(&moment, rate, old)))

@@ -4,7 +4,7 @@ use super::draft::ScriptDraft;
 use super::scene::{GestureRefusal, GestureScene, refused};
 use crate::stage::splice::{ElementPlace, NewElement, insert};
 use crate::stage::time::StageTime;
-use crate::stage::time_text::time_text;
+use crate::stage::time_text::{readable, time_text};
 
 /// A place for a new action, and the time from which its `begin` counts.
 struct ActionPlace {
@@ -40,7 +40,8 @@ pub fn cut_to(scene: &GestureScene<'_>, camera: &str, at: StageTime) -> Result<S
     let near = now.or(shots.first().copied());
     let ActionPlace { place, base } = place_in_par(scene, near);
     let shot = NewElement::new("shot").with("who", camera);
-    let shot = shot.with("begin", time_text(at - base, scene.script.rate(), ""));
+    let shot =
+        shot.with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
     draft.then(|tree| insert(tree, place, &shot))?.finish()
 }
 
@@ -79,7 +80,8 @@ pub fn add_clip(
     };
     let mut clip = NewElement::new("play").with("who", who).with("take", take);
     if at != base {
-        clip = clip.with("begin", time_text(at - base, scene.script.rate(), ""));
+        clip =
+            clip.with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
     }
     ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &clip))?.finish()
 }
@@ -110,7 +112,8 @@ pub fn attach_thing(
     let ActionPlace { place, base } = place_in_par(scene, near);
     let mut attach = NewElement::new("attach").with("who", who).with("to", to);
     if at != base {
-        attach = attach.with("begin", time_text(at - base, scene.script.rate(), ""));
+        attach = attach
+            .with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
     }
     ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &attach))?.finish()
 }

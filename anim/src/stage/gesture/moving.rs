@@ -29,8 +29,9 @@ pub fn move_clip(
 ) -> Result<String, GestureRefusal> {
     let element = scene.script.actions().get(action).map_or(0, |own| own.element);
     scene.element(action)?;
-    let (times, to) = (scene.times(action), to.max(StageTime::ZERO));
+    let times = scene.times(action);
     let draft = ScriptDraft::of(scene.script.tree());
+    // Also for a time before the start, which brings a long clip before a short one.
     if order == ClipOrder::Change
         && is_usual(scene, action)
         && let Some(place) = new_place(scene, action, to)
@@ -40,7 +41,7 @@ pub fn move_clip(
             .then(|tree| move_to(tree, element, place, AttachedComments::Follow))?
             .finish();
     }
-    let by = to - times.begin;
+    let by = to.max(StageTime::ZERO) - times.begin;
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
     if by != StageTime::ZERO {
         changes.push(moved_moment(scene, action, "begin", by));

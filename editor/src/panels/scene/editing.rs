@@ -226,8 +226,7 @@ impl SceneEditing {
         }
         if let Some((old, _)) = self.shown.as_ref().filter(|(old, _)| !Arc::ptr_eq(old, &script)) {
             self.action = self.action.and_then(|action| follow_action(old, action, &script));
-            let is_there = |id: &Box<str>| script.thing_called(id).is_some();
-            self.things.retain(is_there);
+            self.things.retain(|id| script.thing_called(id).is_some());
         }
         if let Some(awaited) = self.awaited.take_if(|id| script.thing_called(id).is_some()) {
             (self.things, self.action) = (vec![awaited], None);

@@ -143,6 +143,8 @@ impl ScriptPanel {
         let asks = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::CTRL, Key::Space));
         let before = self.buffer.clone();
         let width = margin::width(ui, &before);
+        let text_width = self.layout.galley(ui, &before).size().x + 24.0;
+        let room = text_width.max(ui.available_width() - width - 20.0);
         let layout = &mut self.layout;
         let mut layouter = |ui: &Ui, text: &dyn TextBuffer, _: f32| layout.galley(ui, text.as_str());
         let selected = selected_range(scene, context);
@@ -156,7 +158,7 @@ impl ScriptPanel {
                     .id(id)
                     .frame(Frame::NONE.inner_margin(Margin { left: 6, right: 12, top: 4, bottom: 12 }))
                     .lock_focus(true)
-                    .desired_width(f32::INFINITY)
+                    .desired_width(room)
                     .desired_rows(1)
                     .layouter(&mut layouter);
                 let background = ui.painter().add(egui::Shape::Noop);
@@ -173,9 +175,7 @@ impl ScriptPanel {
             .inner
         });
         let output = output.inner;
-        output.response.response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::accesskit::Role::MultilineTextInput, true, "Script of the scene")
-        });
+        let _named = output.response.response.clone().accessible_name("Script of the scene");
         self.followed = selected.or(self.followed.take());
         let cursor = output.cursor_range.map(|range| byte_of(&self.buffer, range.primary.index.0));
         if before != self.buffer {

@@ -43,7 +43,7 @@ impl TypedWord {
                 && follows
                 && is_one
                 && time - word.time < PAUSE
-                && !(word.is_over && !ends_word(&splice.text))
+                && (!word.is_over || ends_word(&splice.text))
         });
         let (gesture, over) = match self.word.filter(|_| continues) {
             Some(word) => (word.gesture, None),
