@@ -34,6 +34,9 @@ pub(crate) mod key {
     pub(crate) const F11: u8 = 95;
     pub(crate) const HOME: u8 = 110;
     pub(crate) const RIGHT: u8 = 114;
+    pub(crate) const LEFT: u8 = 113;
+    pub(crate) const DOWN: u8 = 116;
+    pub(crate) const END: u8 = 115;
     pub(crate) const ALT: u8 = 64;
     pub(crate) const F: u8 = 41;
     pub(crate) const I: u8 = 31;

@@ -36,7 +36,8 @@ fn start(screen: &mut Screen, folder: &Folder, file: &Path, more: &[&str]) -> Ed
     let autosave = folder.join("autosave").display().to_string();
     let arguments = [&["--autosave", &autosave], more].concat();
     let mut editor = Editor::open_file(screen, file, &arguments, &[("DRAGONFLY_LOG", LOG)]);
-    editor.window = screen.any_window(&["Fox.glb", "• Fox.glb"], SOON);
+    let title = file.file_name().expect("a file").to_string_lossy().into_owned();
+    editor.window = screen.any_window(&[&title, &format!("• {title}")], SOON);
     screen.focus(editor.window);
     screen.point(i16::MAX, i16::MAX);
     editor
@@ -58,6 +59,17 @@ impl Visit {
         eventually_shows_something(&visit.screen);
         visit.pause_at_start();
         visit
+    }
+
+    /// Opens a scene whose models are a copy of Fox.
+    pub(crate) fn of_scene(name: &str, text: &str) -> Self {
+        let folder = Folder::new(name);
+        fox(&folder);
+        let file = folder.join("scene.xml");
+        std::fs::write(&file, text).unwrap();
+        let mut screen = Screen::new(name, 1280, 800);
+        let editor = start(&mut screen, &folder, &file, &[]);
+        Self { editor, screen, file, folder, controls: BTreeMap::new(), read: 0, saved: 0 }
     }
 
     /// Starts the program again after it has ended, on a new screen if one is named.
@@ -184,7 +196,8 @@ impl Visit {
     pub(crate) fn save(&mut self) -> Vec<u8> {
         self.control_and(key::S);
         self.saved += 1;
-        self.editor.wait_for_log("Saved Fox.glb", self.saved, SOON);
+        let name = self.file.file_name().expect("a file").to_string_lossy().into_owned();
+        self.editor.wait_for_log(&format!("Saved {name}"), self.saved, SOON);
         std::fs::read(&self.file).expect("it is there")
     }
 

@@ -18,6 +18,8 @@ pub(crate) struct Workbench {
     pub(crate) desk: Desk,
     pub(crate) state: State,
     pub(crate) edited: Option<Edited>,
+    /// The models and the plan of the scene, if one is open.
+    pub(crate) stage: Option<crate::scene_bench::SceneStage>,
     /// All changes requested of the document.
     pub(crate) changes: Vec<Change>,
     /// Reasons for which edits were refused.
@@ -40,7 +42,7 @@ impl Workbench {
             state.show(view);
             state.pause();
         }
-        Self { desk: Desk::new(""), state, edited, changes: Vec::new(), refused: Vec::new() }
+        Self { desk: Desk::new(""), state, edited, stage: None, changes: Vec::new(), refused: Vec::new() }
     }
 
     /// Creates the standard model with all panels.
@@ -113,6 +115,7 @@ impl Workbench {
             Change::Edit(edit, gesture) => match edited.ask(edit, gesture) {
                 Ok(()) => true,
                 Err(error) => {
+                    self.state.edit_refused();
                     self.refused.push(error.to_string());
                     false
                 }
@@ -131,7 +134,20 @@ impl Workbench {
         let adapter = edited.adapter();
         let takes = adapter.results().cloned().collect();
         let generation = view.generation + 1;
-        self.state.show(View { generation, answered, takes, slots: adapter.slots().into(), history, ..view });
+        let text = adapter.texts().main().cloned();
+        let scene = match (&mut self.stage, &text) {
+            (Some(stage), Some(text)) => Some(stage.view(text)),
+            (Some(_), None) | (None, _) => view.scene.clone(),
+        };
+        self.state.show(View {
+            generation,
+            answered,
+            takes,
+            slots: adapter.slots().into(),
+            history,
+            scene,
+            ..view
+        });
     }
 
     /// Returns the pose of a bone in the document, in the take and at the time shown.

@@ -52,7 +52,8 @@
 //! | places, poses, camera, lights, effects, titles, sounds | [`StageScene`] | the plan, a time |
 //!
 //! [`LiveStage`] does all of it for a text that someone is writing, and keeps the last plan that worked. [`table::schema`] returns the
-//! vocabulary as a schema in RELAX NG.
+//! vocabulary as a schema in RELAX NG. For editors: [`lanes`] has the bars of a timeline, [`gesture`] the texts after drags of them,
+//! [`writing`] colors and completes a text that is being written.
 //!
 //! # The vocabulary
 //!
@@ -100,6 +101,8 @@
 
 mod assets;
 mod ease;
+pub mod gesture;
+pub mod lanes;
 pub mod line;
 mod live;
 mod model;
@@ -113,6 +116,8 @@ pub mod script;
 pub mod splice;
 pub mod table;
 pub mod time;
+mod time_text;
+pub mod writing;
 
 pub use assets::{StageAssets, UNKNOWN_SPEED, UNKNOWN_TAKE};
 pub use ease::StageEase;

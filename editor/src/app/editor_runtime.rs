@@ -8,6 +8,7 @@ use super::interface::Interface;
 use super::options::Options;
 use super::reference_loader::{ReferenceAnswer, ReferenceAnswers};
 use super::replies::{Answers, Replies};
+use super::scene_maker::{self, SceneAnswer, SceneAnswers};
 use super::sound_loader::{SoundAnswer, SoundAnswers};
 use super::state_trace;
 use crate::panels::status::MessageSeverity;
@@ -43,6 +44,7 @@ pub(super) struct Running {
     pub(super) answers: Address<Answer>,
     references: Address<ReferenceAnswer>,
     sounds: Address<SoundAnswer>,
+    scenes: Address<SceneAnswer>,
     graphics_sync: GraphicsSync,
     /// Number of questions sent to the graphics thread.
     tickets: u64,
@@ -180,6 +182,11 @@ impl EditorRuntime {
             Effect::TogglePanel(id) => interface.toggle_panel(id),
             Effect::ResetLayout => interface.reset_layout(),
             Effect::RetryDevice => graphics.resume(),
+            Effect::NewScene(model) => {
+                if let Err(error) = scene_maker::make(model, &running.scenes) {
+                    interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
+                }
+            }
         }
         interface.redraw();
     }
@@ -200,6 +207,9 @@ impl BaseRuntime for EditorRuntime {
         let references = main.handle().reserve_address();
         let (shows, draws) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
         let sounds = main.handle().reserve_address();
+        let scenes = main.handle().reserve_address();
+        let opens = Rc::clone(&parts.interface);
+        main.register_restartable_receiver_at(&scenes, move |_| SceneAnswers(Rc::clone(&opens)));
         main.register_restartable_receiver_at(&sounds, move |_| SoundAnswers(Rc::clone(&draws)));
         main.register_restartable_receiver_at(&references, move |_| ReferenceAnswers(Rc::clone(&shows)));
         let setup = self.setup();
@@ -223,6 +233,7 @@ impl BaseRuntime for EditorRuntime {
             answers,
             references,
             sounds,
+            scenes,
             leaving: false,
             graphics_sync: GraphicsSync::default(),
             tickets: 0,
@@ -308,6 +319,7 @@ impl BaseRuntime for EditorRuntime {
         main.unregister_receiver(&running.answers);
         main.unregister_receiver(&running.references);
         main.unregister_receiver(&running.sounds);
+        main.unregister_receiver(&running.scenes);
         if let Some(document) = running.document {
             document.stop();
             if let Err(late) = Thread::wait_for(&[document.thread().clone()], Instant::now() + END) {

@@ -159,6 +159,9 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                 FileChoice::RetargetSource => {
                     Request::Answer(FileAction::Send(DocumentMessage::ReadSource(Source::File(path))))
                 }
+                FileChoice::NewScene => Request::NewScene(path),
+                FileChoice::Role => Request::AddRole(path),
+                FileChoice::Prop => Request::AddProp(path),
                 FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
                 FileChoice::MappedTakes => {
                     Request::ImportMapped(std::iter::once(path).chain(others).collect())

@@ -58,9 +58,12 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                 let title = match &purpose {
                     Purpose::Find(offer) => format!("Where is {} now?", offer.title),
                     Purpose::Compare => "Compare with a take of another model".to_owned(),
-                    _ => "Open a model".to_owned(),
+                    _ => "Open a model or a scene".to_owned(),
                 };
-                let dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());
+                let mut dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());
+                if matches!(purpose, Purpose::Open) {
+                    dialog = dialog.add_filter("Scenes", &["xml", "meproj"]);
+                }
                 pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
             }
             Purpose::Choose(choice) => {

@@ -445,7 +445,10 @@ impl Interface {
         let files = dropped.len();
         // Several files at once are takes for the model that is open; the built-in one is no work of the user.
         let own = self.state.read().view.is_some_and(|view| view.file.path.is_some());
-        if files > 1 && own {
+        let is_model = |path: &std::path::PathBuf| !dragonfly_document::is_script(path);
+        if self.state.read().scene().is_some() && dropped.iter().all(is_model) && !dropped.is_empty() {
+            requests.extend(dropped.into_iter().map(Request::AddRole));
+        } else if files > 1 && own {
             requests.push(Request::ImportTakes(dropped));
         } else if let Some(path) = dropped.into_iter().next() {
             self.state.pass_over(files - 1);
@@ -455,7 +458,9 @@ impl Interface {
             let effect = self.state.execute(request);
             self.effects.extend(effect);
         }
-        if self.state.read().dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
+        let open = self.state.read().dragging.open();
+        let is_typing = self.state.read().scene_editing.is_typing(open);
+        if open.is_some() && !is_typing && !context.input(|input| input.pointer.any_down()) {
             self.effects.push(Effect::ReleaseDrag);
         }
         // The next drawing shows what the requests have changed.

@@ -22,6 +22,7 @@ mod main_runtime;
 mod options;
 mod reference_loader;
 mod replies;
+mod scene_maker;
 mod signals;
 mod sound_loader;
 mod state_trace;

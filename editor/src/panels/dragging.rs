@@ -69,6 +69,11 @@ impl Dragging {
         self.open.is_some()
     }
 
+    /// Returns the gesture of the drag that is in progress and has changed something.
+    pub fn open(&self) -> Option<Gesture> {
+        self.open
+    }
+
     /// Begins a gesture: a drag, or a slider that is held, whose edits are one step.
     pub fn new_gesture(&self) -> Gesture {
         self.gestures.set(self.gestures.get() + 1);

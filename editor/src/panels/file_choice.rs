@@ -15,6 +15,12 @@ pub enum FileChoice {
     RetargetSource,
     /// Files whose takes are imported; several can be chosen.
     Takes,
+    /// The model of a new scene.
+    NewScene,
+    /// The model of a new role of the scene.
+    Role,
+    /// The model of a new prop of the scene.
+    Prop,
     /// Files whose takes are imported with the map of the dialog for retargeting; several can be chosen.
     MappedTakes,
 }
@@ -27,6 +33,9 @@ impl FileChoice {
             Self::Reference => "Choose a reference picture",
             Self::Sound => "Choose a sound",
             Self::RetargetSource => "Choose the model with the take",
+            Self::NewScene => "Choose the model of the two roles",
+            Self::Role => "Choose the model of the role",
+            Self::Prop => "Choose the model of the prop",
             Self::Takes | Self::MappedTakes => "Import takes",
         }
     }
@@ -37,9 +46,12 @@ impl FileChoice {
             Self::PoseFolder => None,
             Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
             Self::Sound => Some(("Sounds", vec!["wav", "flac", "ogg"])),
-            Self::RetargetSource | Self::Takes | Self::MappedTakes => {
-                Some(("Models", formats().extensions()))
-            }
+            Self::RetargetSource
+            | Self::NewScene
+            | Self::Role
+            | Self::Prop
+            | Self::Takes
+            | Self::MappedTakes => Some(("Models", formats().extensions())),
         }
     }
 
@@ -50,6 +62,10 @@ impl FileChoice {
             Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
             Self::Reference | Self::RetargetSource => {
                 "This desktop has no dialog for choosing files; type the path instead"
+            }
+            Self::NewScene => "This desktop has no dialog for choosing files; open a scene.xml instead",
+            Self::Role | Self::Prop => {
+                "This desktop has no dialog for choosing files; drop the model on the window or write it into the script"
             }
             Self::Takes | Self::MappedTakes => {
                 "This desktop has no dialog for choosing files; drop the files on the window instead"

@@ -8,7 +8,7 @@ use super::request::Request;
 use super::step_text;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
-use super::{Panel, PanelPlace, widgets};
+use super::{Panel, PanelPlace, PanelSubject, widgets};
 use dragonfly_document::{Change, HistoryView};
 use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
 
@@ -30,6 +30,10 @@ impl Panel for History {
 
     fn place(&self) -> PanelPlace {
         PanelPlace::Right
+    }
+
+    fn subject(&self) -> PanelSubject {
+        PanelSubject::Any
     }
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -115,9 +115,26 @@ impl Layout {
         requests: &mut Vec<Request>,
     ) {
         let viewport = self.find(VIEWPORT);
+        let unfit = self.hide_unfit(panels, context.scene().is_some());
         let mut drag = LayoutDrag { panels, context, requests, viewport, changed: false };
         self.tree.ui(&mut drag, ui);
         self.changed |= drag.changed;
+        for tile in unfit {
+            self.tree.set_visible(tile, true);
+        }
+    }
+
+    /// Hides the panels that are for something else than what is open. Returns those that were visible before.
+    fn hide_unfit(&mut self, panels: &[Box<dyn Panel>], is_scene: bool) -> Vec<TileId> {
+        let unfit = panels.iter().filter(|panel| !panel.subject().fits(is_scene));
+        let tiles: Vec<TileId> = unfit
+            .filter_map(|panel| self.find(panel.id()))
+            .filter(|&tile| self.tree.is_visible(tile))
+            .collect();
+        for &tile in &tiles {
+            self.tree.set_visible(tile, false);
+        }
+        tiles
     }
 }
 

@@ -46,6 +46,9 @@ pub fn show(
                 list(ui, context, &[Category::Takes], requests);
             });
         });
+        if context.scene().is_some() {
+            ui.menu_button("Scene", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Scene], requests)));
+        }
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -143,6 +146,7 @@ pub(super) fn entries(
             Id::ToggleGhosts => context.settings.tools.ghosts.shown,
             Id::TogglePath => context.settings.tools.path,
             Id::ToggleProblems => context.findings.is_on(),
+            Id::ToggleSceneRipple => context.scene_editing.ripple(),
             _ => false,
         };
         item(ui, context, command.id, on, requests);
@@ -179,6 +183,14 @@ const GROUP_ENDS: &[Id] = &[
     Id::CompareOpened,
     Id::MirrorDialog,
     Id::Retarget,
+    // Scene
+    Id::NewScene,
+    Id::AddMark,
+    Id::SceneRename,
+    Id::CutToCamera,
+    Id::ClipEndToPlayhead,
+    Id::NextAction,
+    Id::SceneLift,
 ];
 
 /// Draws an entry for each selection set, which selects its bones.
@@ -242,6 +254,7 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         }
     });
     item(ui, context, Id::OpenBuiltIn, false, requests);
+    item(ui, context, Id::NewScene, false, requests);
     item(ui, context, Id::ImportTakes, false, requests);
     if context.loading.is_some() {
         item(ui, context, Id::CancelLoading, false, requests);

@@ -76,6 +76,7 @@ mod retarget;
 pub mod retarget_source;
 mod root_motion;
 pub mod ruler;
+pub mod scene;
 mod search_field;
 mod selected_bones;
 pub mod selection_sets;
@@ -113,7 +114,7 @@ mod workspace;
 pub use context::PanelContext;
 pub use file_choice::FileChoice;
 pub use layout::Layout;
-pub use panel::{Panel, PanelPlace, VIEWPORT};
+pub use panel::{Panel, PanelPlace, PanelSubject, VIEWPORT};
 pub use request::{Effect, FileAction, Request};
 pub use settings::Settings;
 pub use state::State;
@@ -124,13 +125,17 @@ use egui::Ui;
 pub fn all() -> Vec<Box<dyn Panel>> {
     vec![
         Box::<hierarchy::Hierarchy>::default(),
+        Box::<scene::outliner::Outliner>::default(),
         Box::<takes::Takes>::default(),
         Box::<layers::Layers>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
+        Box::<scene::attributes::SceneAttributes>::default(),
         Box::<history::History>::default(),
         Box::<timeline::TimelinePanel>::default(),
+        Box::<scene::timeline::SceneTimeline>::default(),
         Box::<curves::Curves>::default(),
+        Box::<scene::script::ScriptPanel>::default(),
         Box::<inbetween::InBetween>::default(),
         Box::<differences::DifferencesPanel>::default(),
         Box::<poses::PosesPanel>::default(),
@@ -180,9 +185,11 @@ impl Desk {
         egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(
             ui,
             |ui| {
+                let is_scene = context.scene().is_some();
                 let shown: Vec<_> = self
                     .panels
                     .iter()
+                    .filter(|panel| panel.subject().fits(is_scene))
                     .map(|panel| (panel.id(), panel.title(), self.layout.is_shown(panel.id())))
                     .collect();
                 ui.centered_and_justified(|ui| menu::show(ui, context, &shown, requests));

@@ -24,6 +24,28 @@ pub enum PanelPlace {
     BelowRight,
 }
 
+/// What has to be open for a panel to be shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PanelSubject {
+    /// A model, or nothing yet.
+    Model,
+    /// A scene.
+    Scene,
+    /// Either.
+    Any,
+}
+
+impl PanelSubject {
+    /// Returns whether a panel is shown while a scene is open, or while none is.
+    pub fn fits(self, is_scene: bool) -> bool {
+        match self {
+            Self::Model => !is_scene,
+            Self::Scene => is_scene,
+            Self::Any => true,
+        }
+    }
+}
+
 /// A part of the window.
 pub trait Panel {
     /// Returns its name in files; never changes.
@@ -34,6 +56,11 @@ pub trait Panel {
 
     /// Returns its position before the user moves it.
     fn place(&self) -> PanelPlace;
+
+    /// Returns what has to be open for it to be shown.
+    fn subject(&self) -> PanelSubject {
+        PanelSubject::Model
+    }
 
     /// Draws it. What the user did is pushed to `requests`.
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>);

@@ -12,6 +12,7 @@ use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
 use super::reference::settings::ReferenceSettings;
+use super::scene::SceneRequest;
 use super::selection_sets::SetAction;
 use super::settings::GhostSettings;
 use super::sound::SoundSettings;
@@ -125,6 +126,14 @@ pub enum Request {
     Reference(ReferenceSettings),
     /// Changes the selection sets, or selects bones by them.
     Sets(SetAction),
+    /// A request about the scene that is open.
+    Scene(SceneRequest),
+    /// Adds this model to the scene as a role.
+    AddRole(PathBuf),
+    /// Adds this model to the scene as a prop.
+    AddProp(PathBuf),
+    /// Makes a scene of two roles with this model, next to its file, and opens it.
+    NewScene(PathBuf),
 }
 
 /// An action that only the application around the panels can carry out.
@@ -172,6 +181,8 @@ pub enum Effect {
     RetryDevice,
     /// Opens, saves, ends or recovers.
     File(FileAction),
+    /// Writes a scene of two roles with this model next to its file, and opens it.
+    NewScene(PathBuf),
 }
 
 /// An action about files.

@@ -27,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
         let scope = edit_scope_menu::title_in(context, ui.available_width());
         let room = Room::of(ui.available_width() - edit_scope_menu::width(ui, scope));
         ui.add_enabled_ui(able, |ui| buttons(ui, context, requests));
-        if room >= Room::Keying {
+        if room >= Room::Keying && context.scene().is_none() {
             divider(ui);
             keying(ui, context, scope, requests);
         }

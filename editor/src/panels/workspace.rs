@@ -21,6 +21,7 @@ use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
+use super::scene::SceneEditing;
 use super::selected_bones::SelectedBones;
 use super::selection_sets::SelectionSets;
 use super::selection_steps::{SelectionState, SelectionSteps};
@@ -91,6 +92,8 @@ pub(super) struct Workspace {
     /// The model whose takes are wanted for the open one.
     pub(super) retarget: RetargetSource,
     pub(super) export: Option<AnsweredExport>,
+    /// The scene that is open.
+    pub(super) scene: SceneEditing,
     /// The pose library.
     pub(super) poses: PoseLibrary,
     /// The reference picture.
@@ -139,6 +142,7 @@ impl Workspace {
             prompts: Prompts::default(),
             retarget: RetargetSource::default(),
             export: None,
+            scene: SceneEditing::default(),
             poses: PoseLibrary::default(),
             reference: ReferenceTrack::default(),
             sound: SoundTrack::default(),
@@ -185,6 +189,7 @@ impl Workspace {
             tools: &self.tools,
             dragging: &self.dragging,
             settings: &self.settings,
+            scene_editing: &self.scene,
             poses: &self.poses,
             reference: &self.reference,
             sound: &self.sound,

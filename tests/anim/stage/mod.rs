@@ -3,7 +3,9 @@
 mod actors;
 mod errors;
 mod feet;
+mod gestures;
 mod holding;
+mod lanes;
 mod lines;
 mod live;
 mod missing;
@@ -17,6 +19,7 @@ mod spans;
 mod splices;
 mod times;
 mod travels;
+mod writing;
 
 use dragonfly_anim::stage::schedule::{Schedule, resolve};
 use dragonfly_anim::stage::script::{ScriptError, StageScript};

@@ -126,7 +126,7 @@ impl Writer {
 }
 
 /// Returns a random script.
-fn script(seed: u64) -> String {
+pub(super) fn script(seed: u64) -> String {
     let mut known = 0;
     // The number of actions does not depend on the references, so a second pass can refer to all of them.
     loop {

@@ -7,9 +7,10 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::compared::CompareWith;
 use dragonfly::panels::keys::KeysRequest;
 use dragonfly::panels::open_model::Loading;
+use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::selection_sets::SetAction;
 use dragonfly::panels::window_status::DeviceStatus;
-use dragonfly::panels::{self, Effect, FileAction, Request, style};
+use dragonfly::panels::{self, Effect, FileAction, PanelSubject, Request, style};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, SetEvents, SetPose, TakeEvent, TakeRef};
 use dragonfly_document::{
@@ -44,11 +45,17 @@ panels! {
     "shapes", [520.0, 220.0], the_shape_keys_panel_looks_as_stored;
     "inbetween", [520.0, 220.0], the_inbetween_panel_looks_as_stored;
     "differences", [520.0, 220.0], the_differences_panel_looks_as_stored;
+    "outliner", [250.0, 520.0], the_scene_panel_looks_as_stored;
+    "scene_timeline", [720.0, 300.0], the_scene_timeline_looks_as_stored;
+    "scene_attributes", [300.0, 420.0], the_attributes_panel_looks_as_stored;
+    "script", [620.0, 360.0], the_script_panel_looks_as_stored;
 }
 
 /// Returns a window in which all panels but one are hidden.
 pub(super) fn only(id: &str, fullness: Fullness) -> Workbench {
-    let mut bench = fullness.bench();
+    let of_scene =
+        panels::all().iter().any(|panel| panel.id() == id && panel.subject() == PanelSubject::Scene);
+    let mut bench = if of_scene { fullness.scene() } else { fullness.bench() };
     for other in panels::all().iter().filter(|other| other.id() != id) {
         bench.desk.toggle_panel(other.id());
     }
@@ -83,6 +90,26 @@ fn more() -> Vec<PictureCase> {
         }
     };
     vec![
+        case("script-suggestions", "script", Typical, |window| {
+            let text = window.state().state.read().scene().unwrap().text.to_string();
+            let at = text.find("<move").unwrap();
+            crate::scene_script::put_cursor(window, at);
+            window.event(egui::Event::Text("<l".to_owned()));
+            window.run_steps(3);
+        }),
+        case("script-errors", "script", Typical, |window| {
+            let text = window.state().state.read().scene().unwrap().text.to_string();
+            let at = text.find("ake=\"Walk").unwrap();
+            crate::scene_script::put_cursor(window, at);
+            window.key_press(Key::Backspace);
+            window.run_steps(3);
+        }),
+        case("outliner-hidden", "outliner", Typical, |window| {
+            let state = &mut window.state_mut().state;
+            state.execute(Request::Scene(SceneRequest::Hide(vec!["ben".into(), "sun".into()], true)));
+            state.execute(Request::Scene(SceneRequest::Lock(vec!["anna".into()], true)));
+            state.execute(Request::Scene(SceneRequest::Rename(Some("close".into()))));
+        }),
         case("hierarchy-hidden", "hierarchy", Typical, |window| {
             window.state_mut().state.execute(Request::Hide { bones: vec![2, 3], hide: true });
         }),

@@ -1,7 +1,9 @@
 //! The three states in which everything is drawn.
 
+use crate::scene_bench;
 use crate::workbench::Workbench;
 use dragonfly::panels::Request;
+use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::status::MessageSeverity;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{
@@ -33,6 +35,24 @@ impl Fullness {
             Self::Empty => "empty",
             Self::Typical => "typical",
             Self::Crowded => "crowded",
+        }
+    }
+
+    /// Returns the panels of a scene in this state.
+    pub(super) fn scene(self) -> Workbench {
+        match self {
+            Self::Empty => scene_bench::scene("<script version=\"1\">\n</script>\n"),
+            Self::Typical => {
+                let mut bench = scene_bench::scene(scene_bench::FOXES);
+                bench.state.execute(Request::Seek(2.25));
+                bench.state.execute(Request::Scene(SceneRequest::SelectAction(Some(5))));
+                bench
+            }
+            Self::Crowded => {
+                let mut bench = scene_bench::scene(&crowd());
+                bench.state.execute(Request::Scene(SceneRequest::SelectAction(Some(4))));
+                bench
+            }
         }
     }
 
@@ -144,4 +164,41 @@ fn crowded() -> Workbench {
         |number| format!("/home/mara/models/animals/{}/{number}.glb", "a folder with a long name").into();
     bench.state.settings_mut().recent = (0..10).map(recent).collect();
     bench
+}
+
+/// Returns a scene of many roles with long names that do much at once.
+fn crowd() -> String {
+    use std::fmt::Write;
+    let mut text = String::from("<script version=\"1\" fps=\"24\">\n  <cast>\n");
+    for role in 0..14 {
+        let _ = writeln!(
+            text,
+            "    <role id=\"a_role_with_a_very_long_name_{role}\" model=\"Fox.glb\" at=\"{role} 0 0\" scale=\"0.01\"/>"
+        );
+    }
+    for camera in 0..6 {
+        let _ = writeln!(text, "    <camera id=\"camera-{camera}\" at=\"0 1 {camera}\"/>");
+    }
+    text.push_str("  </cast>\n  <par>\n");
+    for shot in 0..40 {
+        let _ = writeln!(text, "    <shot who=\"camera-{}\" begin=\"{}\"/>", shot % 6, shot as f64 * 0.5);
+    }
+    for role in 0..14 {
+        let who = format!("a_role_with_a_very_long_name_{role}");
+        text.push_str("    <seq>\n");
+        for step in 0..12 {
+            let take = ["Survey", "Walk", "Run"][(step + role) % 3];
+            let _ =
+                writeln!(text, "      <play who=\"{who}\" take=\"{take}\" fade-in=\"0.3\" begin=\"-0.2\"/>");
+        }
+        text.push_str("    </seq>\n");
+        for look in 0..3 {
+            let _ = writeln!(
+                text,
+                "    <look who=\"{who}\" at=\"camera-0\" bones=\"b_Head_05\" begin=\"{look}\" dur=\"4\"/>"
+            );
+        }
+    }
+    text.push_str("  </par>\n</script>\n");
+    text
 }

@@ -35,6 +35,16 @@ pub struct SoundCue {
 }
 
 impl SoundCue {
+    /// Returns its action: a position in [`StageScript::actions`](crate::stage::script::StageScript::actions).
+    pub fn action(&self) -> usize {
+        self.span.action
+    }
+
+    /// Returns when it stops; the end of the script where the length of its file is not known.
+    pub fn stop(&self) -> StageTime {
+        self.span.stop
+    }
+
     /// Returns the time in the sound; `None` where it does not play.
     pub(super) fn time(&self, time: StageTime) -> Option<StageTime> {
         if time < self.span.begin || time >= self.span.stop {

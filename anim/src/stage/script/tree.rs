@@ -1,6 +1,6 @@
 //! The elements of a script with their places in the text.
 
-use super::{LineIndex, TextPlace};
+use super::{LineIndex, ScriptError, TextPlace};
 use crate::stage::table::{AttributeRow, ElementRow};
 use std::ops::Range;
 use std::sync::Arc;
@@ -65,6 +65,16 @@ pub struct ScriptTree {
 }
 
 impl ScriptTree {
+    /// Reads the elements of a text and checks them against the tables; what references mean is left to
+    /// [`StageScript::read`](super::StageScript::read).
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong, in the order of the text.
+    pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
+        super::read::read_tree(&text.into(), &crate::stage::table::SCRIPTS)
+    }
+
     /// Returns the text.
     pub fn text(&self) -> &Arc<str> {
         &self.text

@@ -34,6 +34,11 @@ impl NewElement {
         self
     }
 
+    /// Returns its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
     fn text(&self) -> String {
         let attributes: String = self
             .attributes

@@ -25,6 +25,7 @@ mod tag;
 pub use attribute::{remove_attribute, set_attribute};
 pub use element::{AttachedComments, delete, duplicate, move_to};
 pub use insert::{ElementPlace, NewElement, insert};
+pub(in crate::stage) use names::named;
 pub use names::{is_used, rename, unique_id};
 
 use std::ops::Range;
@@ -41,6 +42,28 @@ pub struct TextSplice {
 /// Replacements of one text, in its order. They do not overlap.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TextSplices(Vec<TextSplice>);
+
+impl TextSplice {
+    /// Returns the shortest replacement that leads from `old` to `new`; `None` where they are the same.
+    pub fn between(old: &str, new: &str) -> Option<Self> {
+        let start = old.bytes().zip(new.bytes()).take_while(|(old, new)| old == new).count();
+        if start == old.len() && start == new.len() {
+            return None;
+        }
+        let start =
+            (0..=start).rev().find(|&at| old.is_char_boundary(at) && new.is_char_boundary(at)).unwrap_or(0);
+        let (old_rest, new_rest) = (old.get(start..)?, new.get(start..)?);
+        let same =
+            old_rest.bytes().rev().zip(new_rest.bytes().rev()).take_while(|(old, new)| old == new).count();
+        let fits = |&same: &usize| {
+            old_rest.is_char_boundary(old_rest.len() - same)
+                && new_rest.is_char_boundary(new_rest.len() - same)
+        };
+        let same = (0..=same).rev().find(fits).unwrap_or(0);
+        let text = new_rest.get(..new_rest.len() - same)?.to_owned();
+        Some(Self { range: start..old.len() - same, text })
+    }
+}
 
 impl TextSplices {
     /// Creates replacements in any order; `None` where two of them overlap or a range ends before it starts.

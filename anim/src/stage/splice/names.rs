@@ -75,7 +75,7 @@ pub(super) fn with_new_ids(tree: &ScriptTree, element: usize) -> Option<String> 
 }
 
 /// Returns the name of an element that an attribute refers to.
-fn named(attribute: &ScriptAttribute) -> Option<&str> {
+pub(in crate::stage) fn named(attribute: &ScriptAttribute) -> Option<&str> {
     let value = &*attribute.value;
     let name = match attribute.row.reference()? {
         NameReference::Name => value,

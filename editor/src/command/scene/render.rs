@@ -3,7 +3,6 @@
 use crate::command::render::{RenderView, png, refusal, studio, tell_warnings};
 use crate::command::{Failure, output, tell};
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_document::Cancel;
 use dragonfly_picture::{Look, PictureSettings, ThroughCamera};
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};

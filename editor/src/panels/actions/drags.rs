@@ -50,6 +50,7 @@ pub(in crate::panels) fn let_through(
         | Effect::FullScreen
         | Effect::TogglePanel(_)
         | Effect::ResetLayout
+        | Effect::NewScene(_)
         | Effect::RetryDevice) => pass(effect),
     }
 }
@@ -117,6 +118,7 @@ fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)
     // Movements of a drag are not noted, and allocate nothing.
     let selection = workspace.selections.notes(&change).then(|| workspace.selection_state());
     let number = workspace.model.send(&change, &mut workspace.dragging.echo);
+    workspace.scene.passed_on(number, &change);
     if let Some(selection) = selection {
         workspace.selections.send(number, &change, selection);
     } else if let Change::Cancel(gesture) = &change {
@@ -132,6 +134,13 @@ fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)
 
 /// Cancels the drag in progress, whichever panel or tool it belongs to, as if it had never begun.
 fn cancel_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
+    // What someone types is kept.
+    if workspace.scene.is_typing(workspace.dragging.open()) {
+        if let Some(gesture) = workspace.dragging.release() {
+            send(workspace, Change::Release(gesture), pass);
+        }
+        return;
+    }
     if workspace.tools.controls().edits() {
         workspace.tools.drop_drag();
     }
@@ -230,6 +239,7 @@ pub(super) fn settle_keys(workspace: &mut Workspace) {
 
 /// Handles an edit that the document refused: keys that were to be selected after it are not.
 pub(in crate::panels) fn refused(workspace: &mut Workspace) {
+    workspace.scene.refused();
     workspace.keys.refused();
     settle_keys(workspace);
 }

@@ -3,13 +3,14 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 use super::{
-    bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scope, sets, takes,
+    bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scene, scope, sets, takes,
 };
 use crate::panels::commands;
 use crate::panels::file_choice::FileChoice;
 use crate::panels::keys::KeysRequest;
 use crate::panels::reference::settings::ReferenceSettings;
 use crate::panels::request::{Effect, FileAction, Request};
+use crate::panels::scene::NewThing;
 use crate::panels::settings::IkSettings;
 use crate::panels::sound::{SoundSettings, is_sound};
 use crate::panels::status::MessageSeverity;
@@ -109,6 +110,10 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         }
         Request::Choose(choice, from) => return Some(Effect::Choose(choice, from)),
         Request::Sets(action) => sets::perform(workspace, &action),
+        Request::Scene(request) => return scene::perform(workspace, request),
+        Request::AddRole(path) => return scene::add_model(workspace, &path, NewThing::Role),
+        Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),
+        Request::NewScene(path) => return Some(Effect::NewScene(path)),
     }
     None
 }
@@ -149,7 +154,8 @@ fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effec
 }
 
 /// Runs a command, or reports why it cannot be run.
-fn run(workspace: &mut Workspace, command: &commands::Command) -> Option<Effect> {
+fn run(workspace: &mut Workspace, command: &'static commands::Command) -> Option<Effect> {
+    let command = scene::counterpart(workspace, command);
     if !command.when.holds(&workspace.read()) {
         workspace.say(MessageSeverity::Info, command.when.reason());
         return None;

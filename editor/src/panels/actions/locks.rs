@@ -27,6 +27,7 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         | Effect::TogglePanel(_)
         | Effect::ResetLayout
         | Effect::RetryDevice
+        | Effect::NewScene(_)
         | Effect::File(_) => &[],
     };
     let skeleton = &workspace.model.loaded()?.model.animation.skeleton;

@@ -25,6 +25,8 @@ pub(super) mod playback;
 pub(super) mod pose;
 pub(super) mod pose_library;
 mod reopened;
+pub(super) mod scene;
+pub(super) mod scene_clips;
 pub(super) mod scope;
 pub(super) mod sets;
 pub(super) mod show;

@@ -26,6 +26,9 @@ pub(in crate::panels) fn follow_take(workspace: &mut Workspace, before: Option<&
     }) {
         workspace.takes.show_next_new();
     }
+    if workspace.read().scene().is_some() {
+        return;
+    }
     let before = before.map_or(&[][..], |view| &view.slots);
     if let Some(new) = workspace.takes.update(before, workspace.model.slots()) {
         let time = workspace.player.time();
@@ -54,7 +57,9 @@ pub(in crate::panels) fn keep_take(workspace: &mut Workspace) {
     let panels = workspace.read();
     let bounds = panels
         .take()
-        .map(|_| if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() });
+        .map(drop)
+        .or(panels.scene_bounds().map(drop))
+        .map(|()| if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() });
     workspace.player.keep(bounds);
 }
 

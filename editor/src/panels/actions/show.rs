@@ -1,7 +1,7 @@
 //! The start of a frame, and a newer view of the document.
 
 use super::reopened::BeforeReload;
-use super::{drags, framing, keys, layers, playback, scope, tools, undo};
+use super::{drags, framing, keys, layers, playback, scene, scope, tools, undo};
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
 use crate::panels::difference_text::ShownScale;
@@ -53,10 +53,13 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         workspace.selections.open(done);
         workspace.trail.clear();
         workspace.compared = CompareWith::Nothing;
+        workspace.scene.reset();
         show_model(workspace);
-        return before.into_iter().for_each(|before| before.restore(workspace));
+        before.into_iter().for_each(|before| before.restore(workspace));
+        return scene::opened(workspace);
     }
     let before = workspace.model.replace(view);
+    scene::follow(workspace, answered);
     follow_bones(workspace, before.as_ref(), answered);
     playback::follow_take(workspace, before.as_ref());
     keys::keep_markers(workspace, before.as_ref());

@@ -14,6 +14,8 @@ pub enum When {
     Model,
     /// A take is shown, not the rest pose.
     Take,
+    /// A take is shown, or a scene is open.
+    Playable,
     /// A take is shown, and the model has other takes.
     OtherTakes,
     /// A layer is active.
@@ -42,6 +44,14 @@ pub enum When {
     Redo,
     /// There are unsaved changes.
     Unsaved,
+    /// A scene is open.
+    Scene,
+    /// An action of a scene is selected.
+    Clip,
+    /// An action or a thing of a scene is selected.
+    SceneItem,
+    /// A thing of a scene is selected.
+    Thing,
     /// A model is being loaded.
     Loading,
     /// A reference picture was chosen.
@@ -62,6 +72,7 @@ impl When {
             Self::Always => true,
             Self::Model => panels.view.is_some(),
             Self::Take => take,
+            Self::Playable => take || panels.scene_bounds().is_some(),
             Self::OtherTakes => take && panels.digest.takes.len() > 1,
             Self::Layer => panels.layer().is_some(),
             Self::LayerAndBone => panels.layer().is_some() && bone,
@@ -80,6 +91,13 @@ impl When {
                 history.done < history.steps.len() || panels.trail.leads(history.done, WalkDirection::Forward)
             }),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
+            Self::Scene => panels.scene().is_some(),
+            Self::Clip => panels.scene().is_some() && panels.scene_editing.action().is_some(),
+            Self::SceneItem => {
+                let editing = panels.scene_editing;
+                panels.scene().is_some() && (editing.action().is_some() || !editing.things().is_empty())
+            }
+            Self::Thing => panels.scene().is_some() && !panels.scene_editing.things().is_empty(),
             Self::Loading => panels.loading.is_some(),
             Self::Reference => panels.reference.settings().is_chosen(),
             Self::Sound => panels.sound.settings().is_chosen(),
@@ -93,6 +111,7 @@ impl When {
             Self::Always => "",
             Self::Model => "No model is open",
             Self::Take => "No take is shown",
+            Self::Playable => "No take is shown, and no scene is open",
             Self::OtherTakes => "The only take of a model cannot be deleted or moved",
             Self::Layer => "No layer is active",
             Self::LayerAndBone => "Requires an active layer and a selected bone",
@@ -107,6 +126,10 @@ impl When {
             Self::Undo => "There is nothing to undo",
             Self::Redo => "There is nothing to redo",
             Self::Unsaved => "Everything is saved",
+            Self::Scene => "No scene is open",
+            Self::Clip => "No action of a scene is selected",
+            Self::SceneItem => "Nothing of a scene is selected",
+            Self::Thing => "No thing of a scene is selected",
             Self::Loading => "No model is being opened",
             Self::Reference => "No reference picture was chosen",
             Self::Sound => "No sound was chosen",

@@ -44,7 +44,8 @@ impl<'a> PanelContext<'a> {
 
     /// Returns start and length of the take that is shown.
     pub fn take_bounds(&self) -> (f32, f32) {
-        self.shown_take().map_or((0.0, 0.0), |take| (take.start, take.length))
+        let take = || self.shown_take().map_or((0.0, 0.0), |take| (take.start, take.length));
+        self.scene_bounds().unwrap_or_else(take)
     }
 
     /// Returns start and length of the play range, or of the whole take if there is none, seconds.

@@ -7,6 +7,7 @@ mod keys;
 mod layer;
 mod pose;
 mod reference;
+mod scene;
 mod scope;
 
 use super::compared::{CompareWith, ComparedFile};
@@ -26,6 +27,7 @@ use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
 use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
+use super::scene::SceneEditing;
 use super::selection_sets::SelectionSets;
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
@@ -122,6 +124,8 @@ pub struct PanelContext<'a> {
     pub export: Option<&'a AnsweredExport>,
     /// The selection sets of the model.
     pub sets: &'a SelectionSets,
+    /// The scene that is open: selection, lanes, the newest text.
+    pub scene_editing: &'a SceneEditing,
     /// The pose library.
     pub poses: &'a PoseLibrary,
     /// The reference picture.
@@ -204,7 +208,10 @@ impl<'a> PanelContext<'a> {
 
     /// Returns whether keys run commands: no question is shown, and nothing is dragged.
     pub fn takes_shortcuts(&self) -> bool {
-        self.question().is_none() && !self.dragging.is_open() && self.keys.buttonless().is_none()
+        let is_typing = self.scene_editing.is_typing(self.dragging.open());
+        self.question().is_none()
+            && (!self.dragging.is_open() || is_typing)
+            && self.keys.buttonless().is_none()
     }
 
     /// Returns the folder of the pose library: the one that was chosen, or the program's own.

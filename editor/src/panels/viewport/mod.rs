@@ -13,7 +13,7 @@ use super::context::PanelContext;
 use super::request::Request;
 use super::style;
 use super::theme::Theme;
-use super::{Panel, PanelPlace, widgets};
+use super::{Panel, PanelPlace, PanelSubject, widgets};
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2};
@@ -35,6 +35,10 @@ impl Panel for Viewport {
 
     fn place(&self) -> PanelPlace {
         PanelPlace::Middle
+    }
+
+    fn subject(&self) -> PanelSubject {
+        PanelSubject::Any
     }
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -35,6 +35,7 @@ mod layers;
 mod look;
 mod playback;
 mod pose;
+mod scene;
 mod selection;
 mod takes;
 mod tools;
@@ -57,6 +58,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Takes, takes::COMMANDS),
     (Category::Contacts, contacts::COMMANDS),
     (Category::Layers, layers::COMMANDS),
+    (Category::Scene, scene::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Tools, tools::COMMANDS),
     (Category::Camera, camera::COMMANDS),

@@ -1,0 +1,141 @@
+//! New actions: shots, clips, attachments.
+
+use super::draft::ScriptDraft;
+use super::scene::{GestureRefusal, GestureScene, refused};
+use crate::stage::splice::{ElementPlace, NewElement, insert};
+use crate::stage::time::StageTime;
+use crate::stage::time_text::{readable, time_text};
+
+/// A place for a new action, and the time from which its `begin` counts.
+struct ActionPlace {
+    place: ElementPlace,
+    base: StageTime,
+}
+
+/// Cuts to a camera at `at`: a new shot, or another camera for the shot that begins then.
+///
+/// # Errors
+///
+/// There is no such camera, or it is seen at that time already.
+pub fn cut_to(scene: &GestureScene<'_>, camera: &str, at: StageTime) -> Result<String, GestureRefusal> {
+    let is_camera = scene.plan.things().iter().any(|thing| &*thing.id == camera && thing.kind == "camera");
+    if !is_camera {
+        return refused(format!("\"{camera}\" is no camera of the cast"));
+    }
+    let at = at.max(StageTime::ZERO);
+    let begin = |action: usize| scene.times(action).begin;
+    let mut shots: Vec<usize> = (0..scene.script.actions().len())
+        .filter(|&action| scene.script.element(action).row.name == "shot")
+        .collect();
+    shots.sort_by_key(|&shot| (begin(shot), shot));
+    let now = shots.iter().rev().find(|&&shot| begin(shot) <= at).copied();
+    let draft = ScriptDraft::of(scene.script.tree());
+    if now.is_some_and(|shot| scene.script.element(shot).value("who") == Some(camera)) {
+        return refused(format!("\"{camera}\" is seen at that time already"));
+    }
+    if let Some(shot) = now.filter(|&shot| begin(shot) == at) {
+        let element = scene.script.actions()[shot].element;
+        return draft.with(&[(element, "who", Some(camera.to_owned()))])?.finish();
+    }
+    let near = now.or(shots.first().copied());
+    let ActionPlace { place, base } = place_in_par(scene, near);
+    let shot = NewElement::new("shot").with("who", camera);
+    let shot =
+        shot.with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
+    draft.then(|tree| insert(tree, place, &shot))?.finish()
+}
+
+/// Adds a take to a role at `at`: at the end of its `seq` where its last clip is in one, otherwise in a `par`.
+///
+/// # Errors
+///
+/// There is no such thing, or it plays no takes.
+pub fn add_clip(
+    scene: &GestureScene<'_>,
+    who: &str,
+    take: &str,
+    at: StageTime,
+) -> Result<String, GestureRefusal> {
+    let thing = scene.plan.thing_called(who).and_then(|thing| scene.plan.things().get(thing));
+    let Some(thing) = thing else { return refused(format!("No thing of the cast has the id \"{who}\"")) };
+    if !matches!(thing.kind, "role" | "prop") {
+        return refused(format!("A {} plays no takes", thing.kind));
+    }
+    let at = at.max(StageTime::ZERO);
+    let own = |&action: &usize| scene.script.element(action).value("who") == Some(who);
+    let last =
+        (1..scene.script.actions().len()).filter(own).max_by_key(|&action| (scene.times(action).end, action));
+    let actions = scene.script.actions();
+    let in_seq = last.filter(|&last| {
+        let is_last = actions[last]
+            .parent
+            .is_some_and(|parent| scene.is_seq(parent) && actions[parent].children.last() == Some(&last));
+        is_last && !actions[last].passive && scene.times(last).end <= at
+    });
+    let ActionPlace { place, base } = match in_seq {
+        Some(last) => {
+            ActionPlace { place: ElementPlace::After(actions[last].element), base: scene.times(last).end }
+        }
+        None => place_in_par(scene, last),
+    };
+    let mut clip = NewElement::new("play").with("who", who).with("take", take);
+    if at != base {
+        clip =
+            clip.with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
+    }
+    ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &clip))?.finish()
+}
+
+/// Attaches a thing to another one, or to a bone of it such as `anna.RightHand`, from `at` on.
+///
+/// # Errors
+///
+/// One of them is not in the cast, or it would hold itself.
+pub fn attach_thing(
+    scene: &GestureScene<'_>,
+    who: &str,
+    to: &str,
+    at: StageTime,
+) -> Result<String, GestureRefusal> {
+    let holder = to.split_once('.').map_or(to, |(holder, _)| holder);
+    if holder == who {
+        return refused("A thing cannot hold itself");
+    }
+    for name in [who, holder] {
+        if scene.plan.thing_called(name).is_none() {
+            return refused(format!("No thing of the cast has the id \"{name}\""));
+        }
+    }
+    let at = at.max(StageTime::ZERO);
+    let own = |&action: &usize| scene.script.element(action).value("who") == Some(who);
+    let near = (1..scene.script.actions().len()).rfind(own);
+    let ActionPlace { place, base } = place_in_par(scene, near);
+    let mut attach = NewElement::new("attach").with("who", who).with("to", to);
+    if at != base {
+        attach = attach
+            .with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
+    }
+    ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &attach))?.finish()
+}
+
+/// Returns the place after the action `near`, or after the `seq` around it, in a `par`; at the end of the script without one.
+fn place_in_par(scene: &GestureScene<'_>, near: Option<usize>) -> ActionPlace {
+    let actions = scene.script.actions();
+    let last = actions[0].children.last().copied();
+    // A scene whose actions are all in one `par` gets new ones in there.
+    let only =
+        last.filter(|&last| actions[0].children.len() == 1 && scene.script.element(last).row.name == "par");
+    let near = near.or_else(|| only.and_then(|only| actions[only].children.last().copied())).or(last);
+    let Some(mut near) = near else {
+        let cast = scene.script.tree().elements().iter().position(|element| element.row.name == "cast");
+        return ActionPlace {
+            place: cast.map_or(ElementPlace::First(0), ElementPlace::After),
+            base: StageTime::ZERO,
+        };
+    };
+    while let Some(parent) = actions[near].parent.filter(|&parent| scene.is_seq(parent)) {
+        near = parent;
+    }
+    let parent = actions[near].parent.unwrap_or(0);
+    ActionPlace { place: ElementPlace::After(actions[near].element), base: scene.times(parent).begin }
+}

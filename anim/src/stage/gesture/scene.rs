@@ -1,0 +1,86 @@
+//! What gestures are applied to, and why they are refused.
+
+use crate::stage::schedule::{ActionTimes, Schedule};
+use crate::stage::script::{ScriptElement, StageScript};
+use crate::stage::time::{StageTime, parse_time};
+use crate::stage::{StagePlan, StageTake};
+use std::fmt;
+
+/// A script with its plan, as it was when a gesture began.
+#[derive(Clone, Copy, Debug)]
+pub struct GestureScene<'a> {
+    /// The script.
+    pub script: &'a StageScript,
+    /// The plan of this script.
+    pub plan: &'a StagePlan,
+}
+
+/// What happens to the actions after one in a `seq`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Followers {
+    /// They move along, as the script says: it changes one line.
+    Follow,
+    /// They stay at their times: the next one gets another `begin`.
+    Stay,
+}
+
+/// The reason why a gesture is refused, as a sentence without a full stop.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GestureRefusal(pub String);
+
+impl fmt::Display for GestureRefusal {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for GestureRefusal {}
+
+/// Returns a refusal.
+pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, GestureRefusal> {
+    Err(GestureRefusal(reason.into()))
+}
+
+impl<'a> GestureScene<'a> {
+    /// Returns the element of an action.
+    pub(super) fn element(&self, action: usize) -> Result<&'a ScriptElement, GestureRefusal> {
+        if action == 0 || action >= self.script.actions().len() || action >= self.schedule().times().len() {
+            return refused("There is no such action");
+        }
+        Ok(self.script.element(action))
+    }
+
+    /// Returns the times of all actions.
+    pub(super) fn schedule(&self) -> &'a Schedule {
+        self.plan.schedule()
+    }
+
+    /// Returns the times of an action; zeros where there is no such action.
+    pub(super) fn times(&self, action: usize) -> ActionTimes {
+        self.schedule().times().get(action).copied().unwrap_or_default()
+    }
+
+    /// Returns the duration that an attribute of an action has.
+    pub(super) fn time_of(&self, element: &ScriptElement, name: &str) -> Option<StageTime> {
+        parse_time(element.value(name)?, self.script.rate())
+    }
+
+    /// Returns whether an action is a `seq`.
+    pub(super) fn is_seq(&self, action: usize) -> bool {
+        self.script.element(action).row.name == "seq"
+    }
+
+    /// Returns the action after one in a `seq`.
+    pub(super) fn next_in_seq(&self, action: usize) -> Option<usize> {
+        let own = self.script.actions().get(action)?;
+        let parent = own.parent.filter(|&parent| self.is_seq(parent))?;
+        self.script.actions()[parent].children.get(own.position + 1).copied()
+    }
+
+    /// Returns the take that an action plays; `None` for other actions, and while the model is missing.
+    pub(super) fn take(&self, element: &ScriptElement) -> Option<&'a StageTake> {
+        let who = self.plan.thing_called(element.value("who")?)?;
+        let model = self.plan.things().get(who)?.model.as_ref()?;
+        model.takes().get(model.take_called(element.value("take")?)?)
+    }
+}

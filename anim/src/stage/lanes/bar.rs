@@ -1,0 +1,135 @@
+//! A bar of the timeline: an action with its times and its name.
+
+use crate::stage::StagePlan;
+use crate::stage::script::{ScriptElement, StageRepeat, StageScript};
+use crate::stage::time::{Decimal, StageTime, parse_time};
+
+/// A moment of a take that the script names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BarMark {
+    /// Its name.
+    pub name: Box<str>,
+    /// Its time in the scene.
+    pub time: StageTime,
+}
+
+/// An action on the timeline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneBar {
+    /// The action: a position in [`StageScript::actions`].
+    pub action: usize,
+    /// Name of its element.
+    pub kind: &'static str,
+    /// What it plays, shows or does, such as the name of its take.
+    pub label: Box<str>,
+    /// Its begin.
+    pub begin: StageTime,
+    /// When it stops; at its begin for one without a length.
+    pub end: StageTime,
+    /// Duration of one repetition; zero where it has none.
+    pub once: StageTime,
+    /// How often it runs.
+    pub repeat: StageRepeat,
+    /// Duration of its fade at the start; of a shot, of its blend.
+    pub fade_in: StageTime,
+    /// Duration of its fade at the end.
+    pub fade_out: StageTime,
+    /// Whether it decides over the whole body: the main row of a lane. Two of these that overlap are a cross-fade.
+    pub is_main: bool,
+    /// Whether it has no length of its own.
+    pub is_passive: bool,
+    /// Moments of its take.
+    pub marks: Vec<BarMark>,
+    /// Its row in the lane.
+    pub row: usize,
+}
+
+impl SceneBar {
+    pub(super) fn new(script: &StageScript, plan: &StagePlan, action: usize) -> Self {
+        let (own, element) = (&script.actions()[action], script.element(action));
+        let times = plan.schedule().times()[action];
+        let time = |name: &str| {
+            element.value(name).and_then(|text| parse_time(text, script.rate())).unwrap_or_default()
+        };
+        let kind = element.row.name;
+        // How long a sound is, its file says.
+        let sound = plan.sounds().iter().find(|sound| sound.action() == action);
+        let is_layered = element.value("layer").is_some() || element.value("bones").is_some();
+        Self {
+            action,
+            kind,
+            label: label(element).into(),
+            begin: times.begin,
+            end: sound.map_or(times.stop, |sound| sound.stop()),
+            once: times.once,
+            repeat: own.repeat,
+            fade_in: time(if kind == "shot" { "blend" } else { "fade-in" }),
+            fade_out: time("fade-out"),
+            is_main: matches!(kind, "shot" | "move" | "run") || (kind == "play" && !is_layered),
+            is_passive: own.passive,
+            marks: marks(script, action, times.begin, times.once),
+            row: 0,
+        }
+    }
+
+    /// Returns whether the action takes no time.
+    pub fn is_instant(&self) -> bool {
+        self.end <= self.begin
+    }
+
+    /// Returns the times at which further repetitions begin, at most `most` of them.
+    pub fn repetitions(&self, most: usize) -> impl Iterator<Item = StageTime> + use<'_> {
+        let whole = self.once > StageTime::ZERO && self.repeat != StageRepeat::Times(Decimal::ONE);
+        let next = move |&time: &StageTime| Some(time + self.once);
+        let first = whole.then_some(self.begin + self.once);
+        std::iter::successors(first, next).take_while(|&time| time < self.end).take(most)
+    }
+}
+
+/// Returns what a bar says.
+fn label(element: &ScriptElement) -> String {
+    let value = |name: &str| element.value(name).unwrap_or_default();
+    match element.row.name {
+        "play" => value("take").to_owned(),
+        "move" => {
+            let way = element
+                .value("path")
+                .map_or_else(|| format!("to {}", value("to")), |path| format!("along {path}"));
+            match element.value("take") {
+                Some(take) => format!("{take} {way}"),
+                None => format!("Move {way}"),
+            }
+        }
+        "turn" => format!("Turn to {}", value("to")),
+        "place" => match element.value("at") {
+            Some(at) => format!("Place at {at}"),
+            None => format!("Face {}", value("facing")),
+        },
+        "look" => format!("Look at {}", value("at")),
+        "attach" => format!("Attach to {}", value("to")),
+        "detach" => "Detach".to_owned(),
+        "shot" => value("who").to_owned(),
+        "run" => "On".to_owned(),
+        "set" | "change" => format!("{} {}", value("property"), value("to")),
+        "sound" => value("src").rsplit('/').next().unwrap_or_default().to_owned(),
+        "title" => value("text").to_owned(),
+        other => other.to_owned(),
+    }
+}
+
+/// Returns the moments of the take that an action plays, at their times in the scene.
+fn marks(script: &StageScript, action: usize, begin: StageTime, once: StageTime) -> Vec<BarMark> {
+    let element = script.element(action);
+    let own = script.actions()[action].element;
+    let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
+    let time = |element: &ScriptElement, name: &str| parse_time(element.value(name)?, script.rate());
+    let from = time(element, "from").unwrap_or_default();
+    let parts = script.tree().elements()[own + 1..].iter().take_while(|part| part.parent == Some(own));
+    parts
+        .filter_map(|part| {
+            let after = (time(part, "time")? - from).over(speed);
+            let after = if speed.is_negative() { once - after } else { after };
+            Some(BarMark { name: part.value("name")?.into(), time: begin + after })
+        })
+        .collect()
+}

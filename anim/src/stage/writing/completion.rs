@@ -1,0 +1,231 @@
+//! What may be written at the cursor.
+
+use super::cursor::{CursorPlace, OpenTag, place};
+use super::names::{NamedElement, named_elements};
+use crate::stage::table::{ElementGroup, ElementRow, NameReference, PROPERTIES, children_of, element};
+use crate::stage::{StageModel, StagePlan};
+use std::ops::Range;
+
+/// What a suggestion is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CompletionKind {
+    /// An element.
+    Element,
+    /// An attribute.
+    Attribute,
+    /// A word of the vocabulary.
+    Word,
+    /// A thing of the cast.
+    Thing,
+    /// A moment of an action.
+    Moment,
+    /// A take.
+    Take,
+    /// A bone.
+    Bone,
+    /// A file.
+    File,
+}
+
+/// A suggestion.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CompletionItem {
+    /// What it is.
+    pub kind: CompletionKind,
+    /// The text in the list.
+    pub label: String,
+    /// The text to insert.
+    pub insert: String,
+    /// Bytes from the start of the inserted text to the cursor after it.
+    pub cursor: usize,
+    /// What it is for, in one sentence; empty where there is nothing to say.
+    pub help: String,
+}
+
+/// The suggestions at a cursor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Completions {
+    /// The bytes that a suggestion replaces.
+    pub range: Range<usize>,
+    /// The suggestions: those that begin with what is typed first, then those that contain it.
+    pub items: Vec<CompletionItem>,
+}
+
+/// Names that are not in the text.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CompletionNames<'a> {
+    /// The last plan that worked, for takes and bones.
+    pub plan: Option<&'a StagePlan>,
+    /// Files that models, lines and sounds may be.
+    pub files: &'a [&'a str],
+}
+
+/// Returns what may be written at byte `at` of a text; `None` where nothing is suggested.
+pub fn completions(text: &str, at: usize, names: &CompletionNames<'_>) -> Option<Completions> {
+    let (range, items) = match place(text, at)? {
+        CursorPlace::Element { typed, around } => (typed, elements(around)),
+        CursorPlace::End { typed, around } => {
+            (typed, vec![item(CompletionKind::Element, around, format!("{around}>"), "End of the element")])
+        }
+        CursorPlace::Attribute { typed, tag } => (typed, attributes(&tag)),
+        CursorPlace::Value { typed, whole, attribute, tag } => {
+            let value = text.get(typed.clone())?;
+            // Lists of names are completed name by name.
+            let start = if attribute == "bones" { value.rfind(',').map_or(0, |comma| comma + 1) } else { 0 };
+            let end = if attribute == "bones" { typed.end } else { whole.end };
+            (typed.start + start..end, values(&tag, attribute, text, names))
+        }
+    };
+    let typed = text.get(range.start..at)?.trim_start().to_lowercase();
+    let starts = |item: &CompletionItem| item.label.to_lowercase().starts_with(&typed);
+    let contains = |item: &CompletionItem| item.label.to_lowercase().contains(&typed);
+    let (mut first, rest): (Vec<_>, Vec<_>) = items.into_iter().partition(starts);
+    first.extend(rest.into_iter().filter(contains));
+    // A word that is complete needs no list.
+    let is_done = first.len() == 1 && text.get(range.clone()) == Some(first[0].insert.as_str());
+    (!first.is_empty() && !is_done).then_some(Completions { range, items: first })
+}
+
+fn item(kind: CompletionKind, label: &str, insert: String, help: &str) -> CompletionItem {
+    CompletionItem { kind, label: label.to_owned(), cursor: insert.len(), insert, help: help.to_owned() }
+}
+
+fn word(kind: CompletionKind, word: &str, help: &str) -> CompletionItem {
+    item(kind, word, word.to_owned(), help)
+}
+
+fn elements(around: Option<&str>) -> Vec<CompletionItem> {
+    let rows: Vec<&ElementRow> = match around {
+        Some(around) => element(around).map_or(Vec::new(), children_of),
+        None => element("script").into_iter().collect(),
+    };
+    let inserted = |row: &&ElementRow| {
+        let required = row.rows().filter(|attribute| attribute.required);
+        let attributes: String = required.map(|attribute| format!(" {}=\"\"", attribute.name)).collect();
+        let is_container =
+            matches!(row.group, ElementGroup::Container | ElementGroup::Cast | ElementGroup::Script);
+        let end = if is_container { format!("></{}>", row.name) } else { "/>".to_owned() };
+        let insert = format!("{}{attributes}{end}", row.name);
+        // Into the first value, else between the tags.
+        let cursor = insert
+            .find("\"\"")
+            .map(|quotes| quotes + 1)
+            .or_else(|| insert.find("></").map(|close| close + 1));
+        CompletionItem {
+            kind: CompletionKind::Element,
+            label: row.name.to_owned(),
+            cursor: cursor.unwrap_or(row.name.len()),
+            insert,
+            help: row.help.to_owned(),
+        }
+    };
+    rows.iter().map(inserted).collect()
+}
+
+fn attributes(tag: &OpenTag<'_>) -> Vec<CompletionItem> {
+    let Some(row) = tag.row() else { return Vec::new() };
+    let is_excluded =
+        |name: &str| row.one_of.contains(&name) && row.one_of.iter().any(|other| tag.value(other).is_some());
+    let mut rows: Vec<_> = row
+        .rows()
+        .filter(|attribute| tag.value(attribute.name).is_none() && !is_excluded(attribute.name))
+        .collect();
+    rows.sort_by_key(|attribute| !(attribute.required || row.one_of.contains(&attribute.name)));
+    rows.into_iter()
+        .map(|attribute| {
+            let insert = format!("{}=\"\"", attribute.name);
+            CompletionItem {
+                cursor: insert.len() - 1,
+                ..item(CompletionKind::Attribute, attribute.name, insert, attribute.help)
+            }
+        })
+        .collect()
+}
+
+fn values(
+    tag: &OpenTag<'_>,
+    attribute: &str,
+    text: &str,
+    names: &CompletionNames<'_>,
+) -> Vec<CompletionItem> {
+    let Some((element, row)) = tag.row().and_then(|row| Some((row, row.attribute(attribute)?))) else {
+        return Vec::new();
+    };
+    if !row.value.choices.is_empty() {
+        return row.value.choices.iter().map(|choice| word(CompletionKind::Word, choice, row.help)).collect();
+    }
+    let ids = named_elements(text);
+    let model = |who: Option<&str>| model_of(names.plan, who);
+    match attribute {
+        "who" => things(&ids, |kind| element.who.contains(&kind)),
+        "path" => things(&ids, |kind| kind == "path"),
+        "take" => takes(model(tag.value("who"))),
+        "bones" => bones(model(tag.value("who")), ""),
+        "property" => properties(&ids, tag.value("who")),
+        "model" | "src" | "line" => {
+            names.files.iter().map(|file| word(CompletionKind::File, file, "")).collect()
+        }
+        "repeat" => vec![word(CompletionKind::Word, "fill", "For as long as there is time")],
+        _ => match row.reference() {
+            Some(NameReference::Moment) => moments(&ids),
+            // The value of a property is no position.
+            Some(NameReference::Spot) if element.attribute("property").is_none() => spots(&ids, names.plan),
+            Some(NameReference::Spot | NameReference::Name) | None => Vec::new(),
+        },
+    }
+}
+
+fn is_thing(kind: &str) -> bool {
+    element(kind).is_some_and(|row| row.group == ElementGroup::Thing)
+}
+
+fn things(ids: &[NamedElement<'_>], is_one: impl Fn(&str) -> bool) -> Vec<CompletionItem> {
+    ids.iter()
+        .filter(|named| is_thing(named.kind) && is_one(named.kind))
+        .map(|named| word(CompletionKind::Thing, named.id, named.kind))
+        .collect()
+}
+
+fn moments(ids: &[NamedElement<'_>]) -> Vec<CompletionItem> {
+    let actions = ids.iter().filter(|named| !is_thing(named.kind));
+    let before =
+        ["prev.begin", "prev.end"].map(|moment| word(CompletionKind::Moment, moment, "Of the action before"));
+    actions
+        .flat_map(|named| {
+            let points = named.points.iter().copied().chain(["begin", "end"]);
+            points.map(|point| word(CompletionKind::Moment, &format!("{}.{point}", named.id), named.kind))
+        })
+        .chain(before)
+        .collect()
+}
+
+fn spots(ids: &[NamedElement<'_>], plan: Option<&StagePlan>) -> Vec<CompletionItem> {
+    let mut found = things(ids, |kind| kind != "path");
+    for named in ids.iter().filter(|named| matches!(named.kind, "role" | "prop")) {
+        found.extend(bones(model_of(plan, Some(named.id)), &format!("{}.", named.id)));
+    }
+    found
+}
+
+fn properties(ids: &[NamedElement<'_>], who: Option<&str>) -> Vec<CompletionItem> {
+    let kind = ids.iter().find(|named| Some(named.id) == who).map(|named| named.kind);
+    let rows = PROPERTIES.iter().filter(|row| kind.is_none_or(|kind| row.thing == kind));
+    rows.map(|row| word(CompletionKind::Word, row.name, &format!("Of a {}", row.thing))).collect()
+}
+
+fn model_of<'a>(plan: Option<&'a StagePlan>, who: Option<&str>) -> Option<&'a StageModel> {
+    let plan = plan?;
+    plan.things().get(plan.thing_called(who?)?)?.model.as_deref()
+}
+
+fn takes(model: Option<&StageModel>) -> Vec<CompletionItem> {
+    let takes = model.map_or(&[][..], StageModel::takes);
+    let help = |seconds: f64| format!("{seconds:.2} s");
+    takes.iter().map(|take| word(CompletionKind::Take, take.name(), &help(take.length().seconds()))).collect()
+}
+
+fn bones(model: Option<&StageModel>, prefix: &str) -> Vec<CompletionItem> {
+    let bones = model.map_or(&[][..], |model| &model.skeleton().bones);
+    let named = bones.iter().filter(|bone| !bone.name.is_empty());
+    named.map(|bone| word(CompletionKind::Bone, &format!("{prefix}{}", bone.name), "")).collect()
+}

@@ -1,0 +1,176 @@
+//! Commands on the selected action of a scene.
+
+use super::scene::gesture;
+use crate::panels::request::Effect;
+use crate::panels::scene::SceneBase;
+use crate::panels::status::MessageSeverity;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::stage::gesture::{
+    ClipOrder, Followers, GestureRefusal, cut_to, delete_clip, duplicate_clip, move_clip, trim_end,
+    trim_start,
+};
+use dragonfly_anim::stage::script::{ScriptTree, StageScript};
+use dragonfly_anim::stage::splice::{
+    AttachedComments, TextSplices, delete as delete_element, duplicate as duplicate_element, is_used,
+};
+use dragonfly_anim::stage::table::ElementGroup;
+
+fn followers(workspace: &Workspace) -> Followers {
+    if workspace.scene.ripple() { Followers::Follow } else { Followers::Stay }
+}
+
+/// Returns the selected action, unless its thing is locked.
+fn unlocked_action(workspace: &mut Workspace) -> Option<usize> {
+    let action = workspace.scene.action()?;
+    let lane = workspace.scene.lanes().bar_of(action).map(|(lane, _)| lane.name.clone());
+    match lane.filter(|lane| workspace.scene.is_locked(lane)) {
+        Some(lane) => {
+            workspace.say(MessageSeverity::Info, format!("{lane} is locked"));
+            None
+        }
+        None => Some(action),
+    }
+}
+
+/// Lets the selected action begin at the playhead.
+pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect> {
+    let (action, at, followers) =
+        (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
+    gesture(workspace, "Move clip", |base| move_clip(&base.scene(), action, at, ClipOrder::Keep, followers))
+}
+
+/// Moves the selected action by frames.
+pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option<Effect> {
+    let (action, followers) = (unlocked_action(workspace)?, followers(workspace));
+    gesture(workspace, "Move clip", |base| {
+        let rate = base.script.rate();
+        let begin = base.plan.schedule().times().get(action).map(|times| times.begin).unwrap_or_default();
+        let frame = (begin.seconds() * rate.per_second()).round() as i64;
+        let at_frame = rate.frame(frame) == begin;
+        // An action between two frames goes to one of them first.
+        let to = if at_frame { rate.frame(frame + frames) } else { rate.frame(frame) };
+        move_clip(&base.scene(), action, to, ClipOrder::Keep, followers)
+    })
+}
+
+/// Lets the selected action start at the playhead.
+pub(in crate::panels) fn start_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
+    let (action, at) = (unlocked_action(workspace)?, workspace.read().scene_time());
+    gesture(workspace, "Trim start", |base| trim_start(&base.scene(), action, at))
+}
+
+/// Lets the selected action end at the playhead.
+pub(in crate::panels) fn end_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
+    let (action, at, followers) =
+        (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
+    gesture(workspace, "Trim end", |base| trim_end(&base.scene(), action, at, followers))
+}
+
+/// Duplicates the selected action, or the selected things.
+pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
+    if workspace.scene.action().is_some() {
+        let action = unlocked_action(workspace)?;
+        return gesture(workspace, "Duplicate", |base| duplicate_clip(&base.scene(), action));
+    }
+    let things = workspace.scene.things().to_vec();
+    gesture(workspace, "Duplicate", |base| {
+        each_thing(base, &things, |tree, element| Ok(duplicate_element(tree, element)))
+    })
+}
+
+/// Deletes the selected action, or the selected things. With `lift` what follows an action stays where it is.
+pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option<Effect> {
+    if workspace.scene.action().is_some() {
+        let action = unlocked_action(workspace)?;
+        let followers = if lift { Followers::Stay } else { followers(workspace) };
+        return gesture(workspace, "Delete", |base| delete_clip(&base.scene(), action, followers));
+    }
+    let things: Vec<Box<str>> =
+        workspace.scene.things().iter().filter(|thing| !workspace.scene.is_locked(thing)).cloned().collect();
+    if things.is_empty() {
+        workspace.say(MessageSeverity::Info, "What is selected is locked");
+        return None;
+    }
+    gesture(workspace, "Delete", |base| {
+        each_thing(base, &things, |tree, element| {
+            let id = tree.elements()[element].value("id").unwrap_or_default();
+            if is_used(tree, id) {
+                return Err(GestureRefusal(format!("Actions of the script name {id}: delete those first")));
+            }
+            Ok(delete_element(tree, element, AttachedComments::Stay))
+        })
+    })
+}
+
+/// Changes the text for each thing in turn.
+fn each_thing(
+    base: &SceneBase,
+    things: &[Box<str>],
+    change: impl Fn(&ScriptTree, usize) -> Result<Option<TextSplices>, GestureRefusal>,
+) -> Result<String, GestureRefusal> {
+    let mut tree = base.script.tree().clone();
+    let refused = |errors: &[dragonfly_anim::stage::script::ScriptError]| {
+        GestureRefusal(errors.first().map_or(String::new(), |error| error.text()))
+    };
+    for thing in things {
+        let found = tree.elements().iter().position(|element| {
+            element.row.group == ElementGroup::Thing && element.value("id") == Some(thing)
+        });
+        let Some(element) = found else { continue };
+        if let Some(splices) = change(&tree, element)? {
+            let text = splices.apply(tree.text());
+            tree = ScriptTree::read(text).map_err(|errors| refused(&errors))?;
+        }
+    }
+    StageScript::read(tree.text().clone()).map_err(|errors| refused(&errors))?;
+    Ok(tree.text().to_string())
+}
+
+/// Inserts a shot of the camera after the one that is seen at the playhead.
+pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect> {
+    let at = workspace.read().scene_time();
+    gesture(workspace, "Add shot", |base| {
+        let cameras: Vec<&str> = base
+            .plan
+            .things()
+            .iter()
+            .filter(|thing| thing.kind == "camera")
+            .map(|thing| &*thing.id)
+            .collect();
+        let mut scene = base.plan.new_scene();
+        base.plan.scene_at(at, &mut scene);
+        let seen =
+            scene.camera.and_then(|camera| base.plan.things().get(camera.thing)).map(|thing| &*thing.id);
+        let place = seen.and_then(|seen| cameras.iter().position(|camera| *camera == seen));
+        let next = place.map_or(0, |place| (place + 1) % cameras.len().max(1));
+        match cameras.get(next) {
+            Some(camera) => cut_to(&base.scene(), camera, at),
+            None => Err(GestureRefusal("The scene has no camera: add one first".to_owned())),
+        }
+    })
+}
+
+/// Inserts a shot of the selected camera.
+pub(in crate::panels) fn cut_to_selected(workspace: &mut Workspace) -> Option<Effect> {
+    let (at, camera) = (workspace.read().scene_time(), workspace.scene.things().last()?.clone());
+    gesture(workspace, "Add shot", |base| cut_to(&base.scene(), &camera, at))
+}
+
+/// Selects the next or the previous action that has a bar.
+pub(in crate::panels) fn step(workspace: &mut Workspace, forward: bool) {
+    let lanes = workspace.scene.lanes();
+    let mut actions: Vec<usize> =
+        lanes.list.iter().flat_map(|lane| &lane.bars).map(|bar| bar.action).collect();
+    actions.sort_unstable();
+    let now = workspace.scene.action();
+    let next = match (now, forward) {
+        (None, true) => actions.first().copied(),
+        (None, false) => actions.last().copied(),
+        (Some(now), true) => actions.iter().copied().find(|&action| action > now),
+        (Some(now), false) => actions.iter().rev().copied().find(|&action| action < now),
+    };
+    match next {
+        Some(next) => workspace.scene.select_action(Some(next)),
+        None => workspace.say(MessageSeverity::Info, "There is no action on that side"),
+    }
+}

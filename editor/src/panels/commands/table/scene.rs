@@ -1,0 +1,32 @@
+//! Scenes: things of the cast, actions of the timeline.
+
+use super::*;
+use crate::panels::actions::{scene, scene_clips};
+use crate::panels::file_choice::FileChoice;
+use crate::panels::scene::NewThing;
+
+commands! {
+    NewScene => When::Always, "New scene of two roles…", [], "Chooses a model, writes a scene with two roles of it next to its file, and opens it (project, script, movie)", |w| Some(Effect::Choose(FileChoice::NewScene, w.read().model_folder()));
+    AddRole => When::Scene, "Add role…", [], "Adds a figure to the scene: a model whose takes it can play", |w| Some(Effect::Choose(FileChoice::Role, w.read().model_folder()));
+    AddProp => When::Scene, "Add prop…", [], "Adds an object to the scene: a model that stands somewhere or is carried", |w| Some(Effect::Choose(FileChoice::Prop, w.read().model_folder()));
+    AddSceneCamera => When::Scene, "Add camera", [], "Adds a camera to the scene", |w| scene::add(w, &NewThing::Camera);
+    AddLight => When::Scene, "Add light", [], "Adds a sun to the scene", |w| scene::add(w, &NewThing::Light);
+    AddEffect => When::Scene, "Add effect", [], "Adds rain to the scene; it is off until an action turns it on", |w| scene::add(w, &NewThing::Effect);
+    AddPath => When::Scene, "Add path", [], "Adds a path that roles can follow", |w| scene::add(w, &NewThing::Path);
+    AddMark => When::Scene, "Add mark", [], "Adds a place to which roles can go", |w| scene::add(w, &NewThing::Mark);
+    SceneRename => When::Thing, "Rename thing", [], "Renames the selected thing wherever the script names it", |w| { scene::rename(w); None };
+    CutHere => When::Scene, "Cut to the next camera here", [], "Inserts a shot of the next camera at the playhead", scene_clips::cut_to_next;
+    CutToCamera => When::Thing, "Cut to this camera here", [], "Inserts a shot of the selected camera at the playhead", scene_clips::cut_to_selected;
+    ClipToPlayhead => When::Clip, "Move action to playhead", [], "Lets the selected action begin at the playhead", scene_clips::to_playhead;
+    ClipEarlier => When::Clip, "Move action a frame earlier", [], "Moves the selected action one frame back", |w| scene_clips::nudge(w, -1), repeats;
+    ClipLater => When::Clip, "Move action a frame later", [], "Moves the selected action one frame forward", |w| scene_clips::nudge(w, 1), repeats;
+    ClipStartToPlayhead => When::Clip, "Trim start to playhead", [], "Lets the selected action start at the playhead, with the rest of it where it is", scene_clips::start_to_playhead;
+    ClipEndToPlayhead => When::Clip, "Trim end to playhead", [], "Lets the selected action end at the playhead", scene_clips::end_to_playhead;
+    PreviousAction => When::Scene, "Select previous action", [], "Selects the action before the selected one in the script", |w| { scene_clips::step(w, false); None };
+    NextAction => When::Scene, "Select next action", [], "Selects the action after the selected one in the script", |w| { scene_clips::step(w, true); None };
+    SceneDuplicate => When::SceneItem, "Duplicate action or thing", [], "Duplicates the selected action after itself, or the selected thing", scene_clips::duplicate;
+    SceneDelete => When::SceneItem, "Delete action or things", [], "Deletes the selected action, or the selected things; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
+    SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected action; what follows stays where it is", |w| scene_clips::delete(w, true);
+    ToggleSceneRipple => When::Always, "Ripple", [], "Lets what follows in a sequence move along with an action that is dragged; hold 2 for the other way", |w| { scene::toggle_ripple(w); None };
+    FitScene => When::Scene, "Show the whole scene", [], "Shows all of the scene in its timeline", |w| { scene::fit(w); None };
+}

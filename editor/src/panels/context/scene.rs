@@ -1,0 +1,34 @@
+//! Queries about the scene that is open.
+
+use super::PanelContext;
+use dragonfly_anim::stage::time::StageTime;
+use dragonfly_document::SceneView;
+
+/// Distance from a frame within which a time is that frame, frames.
+const ON_FRAME: f64 = 0.01;
+
+impl<'a> PanelContext<'a> {
+    /// Returns the scene that is open; `None` while a model is.
+    pub fn scene(&self) -> Option<&'a SceneView> {
+        self.view?.scene.as_deref()
+    }
+
+    /// Returns the exact time of the playhead in the scene.
+    pub fn scene_time(&self) -> StageTime {
+        let seconds = f64::from(self.time());
+        let Some(script) = self.scene().and_then(|scene| scene.script.as_ref()) else {
+            return StageTime::from_seconds(seconds);
+        };
+        let frame = seconds * script.rate().per_second();
+        match (frame - frame.round()).abs() < ON_FRAME {
+            true => script.rate().frame(frame.round() as i64),
+            false => StageTime::from_seconds(seconds),
+        }
+    }
+
+    /// Returns start and length of the scene, seconds; `None` while a model is open, and before a script works.
+    pub fn scene_bounds(&self) -> Option<(f32, f32)> {
+        let plan = self.scene()?.plan.as_ref()?;
+        Some((0.0, plan.length().seconds() as f32))
+    }
+}

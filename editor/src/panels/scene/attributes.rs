@@ -1,0 +1,196 @@
+//! The attributes of what is selected in a scene, as fields: every row of the vocabulary's tables.
+
+use super::super::context::PanelContext;
+use super::super::panel::PanelSubject;
+use super::super::request::Request;
+use super::super::style::GRID;
+use super::super::theme::Theme;
+use super::super::{Panel, PanelPlace, widgets};
+use super::thing_icon::icon;
+use super::{SceneBase, SceneRequest, ScriptChange};
+use dragonfly_anim::stage::gesture::GestureRefusal;
+use dragonfly_anim::stage::script::{ScriptElement, StageScript};
+use dragonfly_anim::stage::splice::{remove_attribute, rename, set_attribute};
+use dragonfly_anim::stage::table::AttributeRow;
+use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
+use std::sync::Arc;
+
+/// The fields of the selected action or thing.
+#[derive(Debug, Default)]
+pub struct SceneAttributes {
+    /// The field that is being typed in: the element, the attribute, and the text.
+    typed: Option<(usize, &'static str, String)>,
+}
+
+impl Panel for SceneAttributes {
+    fn id(&self) -> &'static str {
+        "scene_attributes"
+    }
+
+    fn title(&self) -> &'static str {
+        "Attributes"
+    }
+
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Right
+    }
+
+    fn subject(&self) -> PanelSubject {
+        PanelSubject::Scene
+    }
+
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let script = context.scene().and_then(|scene| scene.script.as_deref());
+        let Some((script, element)) = script.and_then(|script| Some((script, selected(script, context)?)))
+        else {
+            return widgets::empty(
+                ui,
+                "Nothing is selected",
+                "Click a thing of the scene, or an action in its timeline",
+            );
+        };
+        let own = &script.tree().elements()[element];
+        let is_locked = [own.value("who"), own.value("id")]
+            .into_iter()
+            .flatten()
+            .any(|id| context.scene_editing.is_locked(id));
+        heading(ui, own, script);
+        ui.add_enabled_ui(!is_locked, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                for row in own.row.rows() {
+                    self.field(ui, (element, own), row, context, requests);
+                }
+                ui.add_space(2.0 * GRID);
+            });
+        });
+    }
+}
+
+/// Returns the element of the selected action, or of the active thing.
+fn selected(script: &StageScript, context: &PanelContext<'_>) -> Option<usize> {
+    let editing = context.scene_editing;
+    if let Some(action) = editing.action().and_then(|action| script.actions().get(action)) {
+        return Some(action.element);
+    }
+    let thing = editing.things().last()?;
+    script
+        .tree()
+        .elements()
+        .iter()
+        .position(|element| element.value("id") == Some(thing) && script.thing_called(thing).is_some())
+}
+
+fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
+    let theme = Theme::of(ui);
+    ui.add_space(2.0 * GRID);
+    ui.horizontal(|ui| {
+        ui.add_space(2.0 * GRID);
+        let (mark, _) = ui.allocate_exact_size(egui::vec2(16.0, 16.0), egui::Sense::hover());
+        icon(element.row.name).paint(ui.painter(), mark, theme.accent);
+        let name = element.value("id").or_else(|| element.value("who")).unwrap_or_default();
+        ui.label(RichText::new(format!("{} {name}", element.row.name)).color(theme.text));
+        let line = script.tree().place(element.range.start).line;
+        ui.label(RichText::new(format!("line {line}")).small().color(theme.faint));
+    });
+    ui.horizontal(|ui| {
+        ui.add_space(2.0 * GRID);
+        let help = RichText::new(element.row.help).small().color(theme.weak);
+        ui.add(egui::Label::new(help).wrap());
+    });
+    ui.add_space(GRID);
+}
+
+impl SceneAttributes {
+    fn field(
+        &mut self,
+        ui: &mut Ui,
+        (index, element): (usize, &ScriptElement),
+        row: &'static AttributeRow,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let theme = Theme::of(ui);
+        let written = element.attribute(row.name).map(|attribute| &*attribute.value);
+        ui.horizontal(|ui| {
+            ui.add_space(2.0 * GRID);
+            let color = if written.is_some() { theme.text } else { theme.weak };
+            let (rect, label) = ui.allocate_exact_size(egui::vec2(82.0, 24.0), egui::Sense::hover());
+            widgets::text_in(ui, rect, row.name, &egui::TextStyle::Body, color);
+            label.on_hover_text(format!("{}\n{}", row.help, row.value.expected));
+            let is_typed = self.typed.as_ref().is_some_and(|(of, name, _)| (*of, *name) == (index, row.name));
+            if !is_typed && !row.value.choices.is_empty() {
+                return choices(ui, element, row, index, context, requests);
+            }
+            let mut text = match &self.typed {
+                Some((_, _, text)) if is_typed => text.clone(),
+                Some(_) | None => written.unwrap_or_default().to_owned(),
+            };
+            let width = (ui.available_width() - 2.0 * GRID).max(24.0);
+            let field = TextEdit::singleline(&mut text).hint_text(row.default).desired_width(width);
+            let response = ui.add(field).accessible_name(row.name);
+            let escape = ui.input(|input| input.key_pressed(Key::Escape));
+            if response.lost_focus() && is_typed {
+                self.typed = None;
+                if !escape && text != written.unwrap_or_default() {
+                    requests.push(Request::Scene(set(context, index, row, &text)));
+                }
+            } else if response.has_focus() {
+                self.typed = Some((index, row.name, text));
+            }
+        });
+    }
+}
+
+/// Draws the choice between the words that an attribute may have.
+fn choices(
+    ui: &mut Ui,
+    element: &ScriptElement,
+    row: &'static AttributeRow,
+    index: usize,
+    context: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) {
+    let now = element.value(row.name).unwrap_or_default();
+    let button = widgets::choice_button(ui, if now.is_empty() { "—" } else { now });
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::ComboBox, true, row.name));
+    egui::Popup::menu(&button).show(|ui| {
+        for choice in row.value.choices {
+            if ui.selectable_label(*choice == now, *choice).clicked() {
+                requests.push(Request::Scene(set(context, index, row, choice)));
+                ui.close();
+            }
+        }
+    });
+}
+
+/// Returns the request that gives an attribute of an element a value; an empty one removes it.
+fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &str) -> SceneRequest {
+    let done = || -> Result<SceneRequest, GestureRefusal> {
+        let refused = |reason: String| GestureRefusal(reason);
+        let scene = context.scene().ok_or_else(|| refused("No scene is open".to_owned()))?;
+        let base = SceneBase::of(scene, context.scene_editing.text(scene))?;
+        let tree = base.script.tree();
+        let is_name =
+            row.name == "id" && tree.elements().get(element).is_some_and(|own| own.attribute("id").is_some());
+        if !value.is_empty() && !row.value.accepts(value, base.script.rate()) {
+            return Err(refused(format!("{}=\"{value}\" is not {}", row.name, row.value.expected)));
+        }
+        let splices = match value {
+            "" => remove_attribute(tree, element, row.name),
+            name if is_name => rename(tree, element, name),
+            value => set_attribute(tree, element, row.name, value),
+        };
+        let text = splices.map(|splices| splices.apply(tree.text()));
+        let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
+        // What refers to something that is not there is refused with its reason.
+        StageScript::read(text.as_str())
+            .map_err(|errors| refused(errors.first().map_or(String::new(), |error| error.text())))?;
+        Ok(SceneRequest::Text(ScriptChange {
+            from: Arc::clone(tree.text()),
+            text,
+            label: "Change value",
+            gesture: None,
+        }))
+    };
+    done().unwrap_or_else(|refusal| SceneRequest::Refused(refusal.to_string()))
+}

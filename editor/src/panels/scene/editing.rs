@@ -1,0 +1,308 @@
+//! The scene as it is edited: what is selected, hidden and locked, its lanes, and the newest text.
+
+use super::follow::follow_action;
+use super::request::ScriptChange;
+use crate::panels::keys::TimeWindow;
+use dragonfly_anim::stage::StagePlan;
+use dragonfly_anim::stage::lanes::SceneLanes;
+use dragonfly_anim::stage::script::StageScript;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{Edit, EditScript, TextRef};
+use dragonfly_document::history::Gesture;
+use dragonfly_document::{Change, SceneView};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// The state of the editor of scenes; it contains nothing of the document.
+#[derive(Clone, Debug)]
+pub struct SceneEditing {
+    /// Ids of the selected things; the active one is the last.
+    things: Vec<Box<str>>,
+    /// The selected action of the script that is shown.
+    action: Option<usize>,
+    hidden: BTreeSet<Box<str>>,
+    locked: BTreeSet<Box<str>>,
+    renaming: Option<Box<str>>,
+    /// The thing that is selected as soon as the script has it.
+    awaited: Option<Box<str>>,
+    /// The thing whose model is to be edited.
+    edited_model: Option<Box<str>>,
+    ripple: bool,
+    /// The part of time that the timeline shows; `None` for all.
+    window: Option<TimeWindow>,
+    shown: Option<(Arc<StageScript>, Arc<StagePlan>)>,
+    lanes: Arc<SceneLanes>,
+    /// The newest text that was sent and not answered yet.
+    sent: Option<SentText>,
+    /// The gesture in progress, with the text at its start.
+    gesture: Option<(Gesture, Arc<str>)>,
+    /// The gesture that is a word that someone types.
+    typing: Option<Gesture>,
+}
+
+/// A text that was sent.
+#[derive(Clone, Debug)]
+struct SentText {
+    text: Arc<str>,
+    /// Number of the change; `None` until it is passed on.
+    number: Option<u64>,
+}
+
+impl Default for SceneEditing {
+    fn default() -> Self {
+        Self {
+            things: Vec::new(),
+            action: None,
+            hidden: BTreeSet::new(),
+            locked: BTreeSet::new(),
+            renaming: None,
+            awaited: None,
+            edited_model: None,
+            ripple: true,
+            window: None,
+            shown: None,
+            lanes: Arc::default(),
+            sent: None,
+            gesture: None,
+            typing: None,
+        }
+    }
+}
+
+impl SceneEditing {
+    /// Returns the newest text: the one that was sent last, or that of the view.
+    pub fn text<'a>(&'a self, scene: &'a SceneView) -> &'a Arc<str> {
+        self.sent.as_ref().map_or(&scene.text, |sent| &sent.text)
+    }
+
+    /// Returns the ids of the selected things, the active one last.
+    pub fn things(&self) -> &[Box<str>] {
+        &self.things
+    }
+
+    /// Returns whether a thing is selected.
+    pub fn is_selected(&self, thing: &str) -> bool {
+        self.things.iter().any(|id| &**id == thing)
+    }
+
+    /// Returns the selected action.
+    pub fn action(&self) -> Option<usize> {
+        self.action
+    }
+
+    /// Returns whether a thing is hidden.
+    pub fn is_hidden(&self, thing: &str) -> bool {
+        self.hidden.contains(thing)
+    }
+
+    /// Returns whether a thing is locked: gestures do not change it.
+    pub fn is_locked(&self, thing: &str) -> bool {
+        self.locked.contains(thing)
+    }
+
+    /// Returns the thing whose name is being typed.
+    pub fn renaming(&self) -> Option<&str> {
+        self.renaming.as_deref()
+    }
+
+    /// Returns whether what follows in a sequence moves along.
+    pub fn ripple(&self) -> bool {
+        self.ripple
+    }
+
+    /// Returns the part of time that the timeline shows: the whole scene, unless another part was chosen.
+    pub fn window(&self) -> TimeWindow {
+        let end = self.lanes.end.seconds().max(1.0);
+        let whole = TimeWindow { start: 0.0, length: end * 1.04 }.sanitized();
+        self.window.map_or(whole, |window| window.near(0.0, end))
+    }
+
+    pub(in crate::panels) fn set_window(&mut self, window: Option<TimeWindow>) {
+        self.window = window.map(TimeWindow::sanitized);
+    }
+
+    /// Returns the lanes of the script that is shown.
+    pub fn lanes(&self) -> &Arc<SceneLanes> {
+        &self.lanes
+    }
+
+    /// Returns whether a gesture is a word that someone types.
+    pub fn is_typing(&self, gesture: Option<Gesture>) -> bool {
+        gesture.is_some() && self.typing == gesture
+    }
+
+    pub(in crate::panels) fn select_things(&mut self, things: &[Box<str>], choice: Choice) {
+        if choice == Choice::Replace {
+            self.things.clear();
+        }
+        for thing in things {
+            let place = self.things.iter().position(|id| id == thing);
+            if let Some(place) = place {
+                self.things.remove(place);
+            }
+            if place.is_none() || choice != Choice::Toggle {
+                self.things.push(thing.clone());
+            }
+        }
+    }
+
+    /// Selects an action and the thing that acts.
+    pub(in crate::panels) fn select_action(&mut self, action: Option<usize>) {
+        self.action = action;
+        let Some((script, _)) = &self.shown else { return };
+        let element = action.and_then(|action| script.actions().get(action).map(|_| script.element(action)));
+        if let Some(who) = element.and_then(|element| element.value("who")) {
+            self.things = vec![who.into()];
+        }
+    }
+
+    /// Selects what is at a byte of the script: a thing, or an action.
+    pub(in crate::panels) fn select_at(&mut self, at: usize) {
+        let Some((script, _)) = &self.shown else { return };
+        let tree = script.tree();
+        let Some(mut element) = tree.element_at(at) else { return };
+        loop {
+            if let Some(action) = script.actions().iter().position(|action| action.element == element) {
+                return self.select_action((action > 0).then_some(action));
+            }
+            let own = &tree.elements()[element];
+            if let Some(id) = own.value("id").filter(|id| script.thing_called(id).is_some()) {
+                self.action = None;
+                self.things = vec![id.into()];
+                return;
+            }
+            let Some(parent) = own.parent else { return };
+            element = parent;
+        }
+    }
+
+    pub(in crate::panels) fn hide(&mut self, things: Vec<Box<str>>, hide: bool) {
+        set(&mut self.hidden, things, hide);
+    }
+
+    pub(in crate::panels) fn lock(&mut self, things: Vec<Box<str>>, lock: bool) {
+        set(&mut self.locked, things, lock);
+    }
+
+    pub(in crate::panels) fn rename(&mut self, thing: Option<Box<str>>) {
+        self.renaming = thing;
+    }
+
+    /// Selects a thing as soon as the script has it.
+    pub(in crate::panels) fn await_thing(&mut self, thing: Box<str>) {
+        self.awaited = Some(thing);
+    }
+
+    /// Notes the thing whose model is to be edited.
+    pub(in crate::panels) fn edit_model(&mut self, thing: Box<str>) {
+        self.edited_model = Some(thing);
+    }
+
+    /// Returns the thing whose model is to be edited, and forgets it.
+    pub fn take_edited_model(&mut self) -> Option<Box<str>> {
+        self.edited_model.take()
+    }
+
+    pub(in crate::panels) fn set_ripple(&mut self, ripple: bool) {
+        self.ripple = ripple;
+    }
+
+    /// Forgets everything: another document is open.
+    pub(in crate::panels) fn reset(&mut self) {
+        *self = Self { ripple: self.ripple, ..Self::default() };
+    }
+
+    /// Adapts to a newer view.
+    pub(in crate::panels) fn update(&mut self, scene: Option<&SceneView>, answered: u64) {
+        self.sent.take_if(|sent| sent.number.is_some_and(|number| number <= answered));
+        let shown = scene
+            .and_then(|scene| Some((Arc::clone(scene.script.as_ref()?), Arc::clone(scene.plan.as_ref()?))));
+        let Some((script, plan)) = shown else { return };
+        let is_same = |(old, planned): &(Arc<StageScript>, Arc<StagePlan>)| {
+            Arc::ptr_eq(old, &script) && Arc::ptr_eq(planned, &plan)
+        };
+        if self.shown.as_ref().is_some_and(is_same) {
+            return;
+        }
+        if let Some((old, _)) = self.shown.as_ref().filter(|(old, _)| !Arc::ptr_eq(old, &script)) {
+            self.action = self.action.and_then(|action| follow_action(old, action, &script));
+            self.things.retain(|id| script.thing_called(id).is_some());
+        }
+        if let Some(awaited) = self.awaited.take_if(|id| script.thing_called(id).is_some()) {
+            (self.things, self.action) = (vec![awaited], None);
+        }
+        self.lanes = Arc::new(SceneLanes::new(&script, &plan));
+        self.shown = Some((script, plan));
+    }
+
+    /// Returns the change of the document that makes a text the newest one; `None` where it is that already.
+    ///
+    /// # Errors
+    ///
+    /// The text was made from another one than the newest.
+    pub(in crate::panels) fn change(
+        &mut self,
+        scene: &SceneView,
+        change: &ScriptChange,
+    ) -> Result<Option<Change>, &'static str> {
+        let known = self.gesture.as_ref().filter(|(gesture, _)| Some(*gesture) == change.gesture);
+        let base = known.map_or(self.text(scene), |(_, base)| base);
+        // A word is typed letter by letter; a drag always begins with the text at its start.
+        let is_known = |text: &Arc<str>| Arc::ptr_eq(text, &change.from) || **text == *change.from;
+        if !is_known(base) && !is_known(self.text(scene)) {
+            return Err("The script has changed meanwhile: try again");
+        }
+        let base = Arc::clone(base);
+        if **self.text(scene) == *change.text {
+            return Ok(None);
+        }
+        let text: Arc<str> = change.text.as_str().into();
+        let file = (scene.texts.list().len() > 1).then(|| TextRef::Name(scene.name.to_string()));
+        let edit = EditScript::between(&base, &text, Some(change.label));
+        let edit = edit.map(|edit| EditScript { text: file, ..edit });
+        self.sent = Some(SentText { text, number: None });
+        self.gesture = change.gesture.map(|gesture| (gesture, base));
+        Ok(match (edit, change.gesture) {
+            (Some(edit), gesture) => Some(Change::Edit(Edit::EditScript(edit), gesture)),
+            // A drag is back where it began.
+            (None, Some(gesture)) => Some(Change::Cancel(gesture)),
+            (None, None) => None,
+        })
+    }
+
+    /// Notes the gesture of a word that someone types.
+    pub(in crate::panels) fn set_typing(&mut self, gesture: Option<Gesture>) {
+        self.typing = gesture;
+    }
+
+    /// Notes the number of a change that was passed on.
+    pub(in crate::panels) fn passed_on(&mut self, number: u64, change: &Change) {
+        match change {
+            Change::Edit(Edit::EditScript(_), _) | Change::Cancel(_) => {
+                if let Some(sent) = self.sent.as_mut().filter(|sent| sent.number.is_none()) {
+                    sent.number = Some(number);
+                } else {
+                    // A gesture that something else cancelled: the next view has the text.
+                    self.sent = None;
+                }
+            }
+            Change::Undo | Change::Redo | Change::GoTo(_) => self.sent = None,
+            Change::Edit(..) | Change::Release(_) => {}
+        }
+    }
+
+    /// Forgets a text that the document refused.
+    pub(in crate::panels) fn refused(&mut self) {
+        (self.sent, self.gesture) = (None, None);
+    }
+}
+
+fn set(of: &mut BTreeSet<Box<str>>, things: Vec<Box<str>>, on: bool) {
+    for thing in things {
+        if on {
+            of.insert(thing);
+        } else {
+            of.remove(&thing);
+        }
+    }
+}

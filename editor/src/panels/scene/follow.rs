@@ -1,0 +1,35 @@
+//! The action of a new script that was a given one of the script before.
+
+use dragonfly_anim::stage::script::{ScriptElement, StageScript};
+
+/// Returns the action of `new` that is `action` of `old`: the one with its id, otherwise one that says the same apart from its times, the
+/// nearest in the text. `None` where it is gone.
+pub fn follow_action(old: &StageScript, action: usize, new: &StageScript) -> Option<usize> {
+    let element = old.actions().get(action).map(|_| old.element(action))?;
+    if let Some(id) = element.value("id") {
+        return new.action_called(id);
+    }
+    let same_count = old.actions().len() == new.actions().len();
+    let is_same =
+        |other: usize| new.element(other).attribute("id").is_none() && is_alike(element, new.element(other));
+    // Most edits change attributes of one action and leave all others where they are.
+    if same_count && action < new.actions().len() && new.element(action).row.name == element.row.name {
+        let around = |script: &StageScript, at: usize| script.actions()[at].parent;
+        if is_same(action)
+            || around(old, action) == around(new, action) && !(1..new.actions().len()).any(is_same)
+        {
+            return Some(action);
+        }
+    }
+    (1..new.actions().len()).filter(|&other| is_same(other)).min_by_key(|other| other.abs_diff(action))
+}
+
+/// Returns whether two elements say the same apart from their times.
+fn is_alike(one: &ScriptElement, other: &ScriptElement) -> bool {
+    const TIMES: [&str; 3] = ["begin", "end", "dur"];
+    let rest = |element: &ScriptElement| {
+        let attributes = element.attributes.iter().filter(|attribute| !TIMES.contains(&attribute.row.name));
+        attributes.map(|attribute| (attribute.row.name, attribute.value.clone())).collect::<Vec<_>>()
+    };
+    one.row.name == other.row.name && rest(one) == rest(other)
+}

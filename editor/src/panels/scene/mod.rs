@@ -1,0 +1,28 @@
+//! Scenes: the list of things, the timeline of their actions, the script.
+//!
+//! ```text
+//! panel ── gesture of `anim::stage::gesture` on the script as it was ── new text ──► SceneRequest::Text ──► one edit of the document
+//!   ▲                                                                                                          │
+//!   └───────────────────────────── View::scene: text, script, plan, errors ◄───────────────────────────────────┘
+//! ```
+//!
+//! The panels contain nothing of the scene: they draw the last script that worked, and a text of their own only while someone types.
+
+pub mod attributes;
+mod base;
+mod editing;
+mod follow;
+mod new_thing;
+pub mod outliner;
+mod request;
+pub mod script;
+mod template;
+mod thing_icon;
+pub mod timeline;
+
+pub use base::SceneBase;
+pub use editing::SceneEditing;
+pub use follow::follow_action;
+pub use new_thing::{NewThing, new_thing_text};
+pub use request::{SceneRequest, ScriptChange};
+pub use template::{duel_text, free_name};

@@ -1,0 +1,153 @@
+//! A row of the list: the icon, the name, and switches that hide and lock.
+
+use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
+use crate::panels::icons::Icon;
+use crate::panels::menu::{item, submenu};
+use crate::panels::request::Request;
+use crate::panels::scene::SceneRequest;
+use crate::panels::scene::thing_icon::icon;
+use crate::panels::style::ROW;
+use crate::panels::theme::Theme;
+use crate::panels::widgets;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::{SceneModel, SceneView};
+use egui::accesskit::Role;
+use egui::{Rect, Response, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
+
+/// Draws a row. Returns whether it was clicked.
+pub(super) fn show(
+    ui: &mut Ui,
+    context: &PanelContext<'_>,
+    scene: &SceneView,
+    (kind, id): (&'static str, &str),
+    requests: &mut Vec<Request>,
+) -> bool {
+    let (theme, editing) = (Theme::of(ui), context.scene_editing);
+    let is_selected = editing.is_selected(id);
+    let (rect, response) = widgets::row(ui, &format!("{id}, {kind}"), is_selected, false);
+    let mark = Rect::from_center_size(pos2(rect.left() + 22.0, rect.center().y), vec2(16.0, 16.0));
+    let color = match () {
+        () if is_selected => theme.accent,
+        () if editing.is_hidden(id) => theme.faint,
+        () => theme.text,
+    };
+    icon(kind).paint(ui.painter(), mark, if is_selected { theme.accent } else { theme.weak });
+    let text =
+        Rect::from_min_max(pos2(rect.left() + 36.0, rect.top()), pos2(rect.right() - 54.0, rect.bottom()));
+    let shown = widgets::cut_in_middle(ui, id, text.width(), &TextStyle::Body);
+    let end = widgets::text_in(ui, text, &shown, &TextStyle::Body, color);
+    let state = model_state(scene, id);
+    if let Some((note, is_bad)) = &state
+        && text.right() - end > 30.0
+    {
+        let place = Rect::from_min_max(pos2(end + 8.0, rect.top()), text.max);
+        widgets::text_in(
+            ui,
+            place,
+            note,
+            &TextStyle::Small,
+            if *is_bad { theme.warning } else { theme.faint },
+        );
+    }
+    let switches = [
+        (36.0, editing.is_locked(id), [Icon::Unlocked, Icon::Locked], ["Lock", "Unlock"]),
+        (16.0, editing.is_hidden(id), [Icon::Shown, Icon::Hidden], ["Hide", "Show"]),
+    ];
+    for (at, (right, is_on, icons, verbs)) in switches.into_iter().enumerate() {
+        let place = Rect::from_center_size(pos2(rect.right() - right, rect.center().y), vec2(20.0, ROW));
+        let over = ui.rect_contains_pointer(rect);
+        let button = ui.interact(place, response.id.with(at), Sense::click());
+        let verb = verbs[usize::from(is_on)];
+        button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {id}")));
+        if is_on || over || button.has_focus() {
+            let tone = if button.hovered() { theme.text } else { theme.faint };
+            icons[usize::from(is_on)].paint(ui.painter(), place, tone);
+            widgets::focus_ring(ui, &button, place);
+        }
+        if button.clicked() {
+            let things = affected(context, id);
+            requests.push(Request::Scene(match at {
+                0 => SceneRequest::Lock(things, !is_on),
+                _ => SceneRequest::Hide(things, !is_on),
+            }));
+        }
+        button.on_hover_text(format!("{verb} {id}"));
+    }
+    menu(&response, context, (kind, id), requests);
+    if response.double_clicked() {
+        requests.push(match kind {
+            "role" | "prop" => Request::Scene(SceneRequest::EditModel(id.into())),
+            _ => Request::Scene(SceneRequest::Rename(Some(id.into()))),
+        });
+    }
+    let clicked = response.clicked();
+    if response.secondary_clicked() && !is_selected {
+        requests.push(Request::Scene(SceneRequest::SelectThings(vec![id.into()], Choice::Replace)));
+    }
+    response.on_hover_text(hint(kind, id, state.as_ref().map(|(_, is_bad)| *is_bad), scene));
+    clicked
+}
+
+/// Returns the things that a switch in the row of `id` changes: all selected ones if it is one of them.
+fn affected(context: &PanelContext<'_>, id: &str) -> Vec<Box<str>> {
+    match context.scene_editing.is_selected(id) {
+        true => context.scene_editing.things().to_vec(),
+        false => vec![id.into()],
+    }
+}
+
+fn source<'a>(scene: &'a SceneView, id: &str) -> Option<&'a str> {
+    let things = scene.script.as_ref()?;
+    let own = things.things().find(|thing| thing.value("id") == Some(id))?;
+    own.value("model")
+}
+
+/// Returns a word about the model of a thing that is not there yet, and whether it will not come.
+fn model_state(scene: &SceneView, id: &str) -> Option<(&'static str, bool)> {
+    match scene.models.get(source(scene, id)?)? {
+        SceneModel::Loading => Some(("reading…", false)),
+        SceneModel::Loaded(_) => None,
+        SceneModel::Missing(_) => Some(("missing", true)),
+    }
+}
+
+fn hint(kind: &str, id: &str, is_bad: Option<bool>, scene: &SceneView) -> String {
+    let model = source(scene, id).map(|source| format!("\n{source}")).unwrap_or_default();
+    let reason = match source(scene, id).and_then(|source| scene.models.get(source)) {
+        Some(SceneModel::Missing(reason)) if is_bad == Some(true) => {
+            format!("\n{}", widgets::shortened(reason))
+        }
+        _ => String::new(),
+    };
+    let action = if matches!(kind, "role" | "prop") {
+        "\nDouble-click: edit its takes and bones"
+    } else {
+        "\nDouble-click: rename"
+    };
+    format!("{kind} {id}{model}{reason}{action}")
+}
+
+fn menu(
+    response: &Response,
+    context: &PanelContext<'_>,
+    (kind, id): (&str, &str),
+    requests: &mut Vec<Request>,
+) {
+    response.context_menu(|ui| {
+        if matches!(kind, "role" | "prop")
+            && ui.add(egui::Button::new("Edit takes and bones").frame_when_inactive(false)).clicked()
+        {
+            requests.push(Request::Scene(SceneRequest::EditModel(id.into())));
+            ui.close();
+        }
+        if kind == "camera" {
+            item(ui, context, Id::CutToCamera, false, requests);
+        }
+        for id in [Id::SceneRename, Id::SceneDuplicate, Id::SceneDelete] {
+            item(ui, context, id, false, requests);
+        }
+        ui.separator();
+        submenu(ui, "Add", |ui| super::entries(ui, context, requests));
+    });
+}

@@ -1,0 +1,48 @@
+//! Requests about scenes.
+
+use crate::panels::keys::TimeWindow;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::history::Gesture;
+use std::sync::Arc;
+
+/// A new text of the script.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScriptChange {
+    /// The text that it was made from; of a gesture, the one at its start.
+    pub from: Arc<str>,
+    /// The new text.
+    pub text: String,
+    /// What it does, as the history names it.
+    pub label: &'static str,
+    /// The gesture that it belongs to.
+    pub gesture: Option<Gesture>,
+}
+
+/// A request about a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneRequest {
+    /// Replaces the text of the script.
+    Text(ScriptChange),
+    /// Replaces the text by what someone types; the gesture is a word.
+    Typed(ScriptChange),
+    /// Selects things of the cast by their ids: replaces, adds or toggles them.
+    SelectThings(Vec<Box<str>>, Choice),
+    /// Selects an action, or none.
+    SelectAction(Option<usize>),
+    /// The cursor of the script is at this byte: what is there is selected.
+    Cursor(usize),
+    /// Hides things, or shows them again.
+    Hide(Vec<Box<str>>, bool),
+    /// Locks things, or unlocks them.
+    Lock(Vec<Box<str>>, bool),
+    /// Starts to rename a thing, or ends it.
+    Rename(Option<Box<str>>),
+    /// Sets whether what follows in a sequence moves along.
+    Ripple(bool),
+    /// Shows this part of time in the timeline; `None` shows all.
+    Window(Option<TimeWindow>),
+    /// Tells why a gesture was refused.
+    Refused(String),
+    /// Opens the takes and bones of the model of a thing, in place.
+    EditModel(Box<str>),
+}

@@ -1,0 +1,302 @@
+//! The script of a scene as a text that one writes, with colors, suggestions and errors.
+
+mod coloring;
+mod error_list;
+mod lines;
+mod margin;
+mod popup;
+mod typing;
+
+use super::super::context::PanelContext;
+use super::super::panel::PanelSubject;
+use super::super::request::Request;
+use super::super::theme::Theme;
+use super::super::{Panel, PanelPlace, widgets};
+use super::{SceneRequest, ScriptChange};
+use crate::panels::commands::Id as CommandId;
+use coloring::ScriptLayout;
+use dragonfly_anim::stage::splice::TextSplice;
+use dragonfly_anim::stage::writing::{CompletionNames, completions};
+use dragonfly_document::{Change, SceneView};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{
+    CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer, TextEdit, Ui, pos2,
+};
+use lines::{byte_of, characters_before, lines_of, moved_position};
+use popup::{SuggestionKey, SuggestionList};
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Duration;
+use typing::TypedWord;
+
+/// The editor of the script.
+#[derive(Debug, Default)]
+pub struct ScriptPanel {
+    buffer: String,
+    /// The text of the document that the buffer shows.
+    of: Option<Arc<str>>,
+    layout: ScriptLayout,
+    word: TypedWord,
+    suggestions: SuggestionList,
+    /// Byte of the cursor when it was told last.
+    told: Option<usize>,
+    /// What was selected elsewhere when the text was scrolled to it last.
+    followed: Option<Range<usize>>,
+    /// Where the cursor goes in the next frame, bytes.
+    jump: Option<usize>,
+}
+
+impl Panel for ScriptPanel {
+    fn id(&self) -> &'static str {
+        "script"
+    }
+
+    fn title(&self) -> &'static str {
+        "Script"
+    }
+
+    fn place(&self) -> PanelPlace {
+        PanelPlace::BelowRight
+    }
+
+    fn subject(&self) -> PanelSubject {
+        PanelSubject::Scene
+    }
+
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some(scene) = context.scene() else {
+            (self.of, self.told) = (None, None);
+            return widgets::empty(
+                ui,
+                "The script of a scene appears here",
+                "File ▸ New scene… or open a scene.xml",
+            );
+        };
+        let id = Id::unique("script of the scene");
+        self.follow_document(ui, id, context.scene_editing.text(scene));
+        let rect = ui.available_rect_before_wrap();
+        ui.painter().rect_filled(rect, CornerRadius::ZERO, Theme::of(ui).sunken);
+        let errors = error_list::height(scene, rect.height());
+        let edit = Rect::from_min_max(rect.min, pos2(rect.right(), rect.bottom() - errors));
+        let list = Rect::from_min_max(pos2(rect.left(), edit.bottom()), rect.max);
+        if let Some(at) = error_list::show(ui, list, scene) {
+            self.jump = Some(at);
+        }
+        let mut child = ui.new_child(egui::UiBuilder::new().max_rect(edit));
+        child.set_clip_rect(edit.intersect(ui.clip_rect()));
+        self.edit(&mut child, id, scene, context, requests);
+    }
+}
+
+impl ScriptPanel {
+    /// Shows a newer text of the document; the cursor stays at what it was at.
+    fn follow_document(&mut self, ui: &Ui, id: Id, text: &Arc<str>) {
+        if self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, text)) {
+            return;
+        }
+        self.of = Some(Arc::clone(text));
+        if **text == *self.buffer {
+            return;
+        }
+        if let Some(mut state) = TextEditState::load(ui.ctx(), id) {
+            let moved = |cursor: CCursor| {
+                let at = byte_of(&self.buffer, cursor.index.0);
+                CCursor::new(characters_before(text, moved_position(at, &self.buffer, text)))
+            };
+            let range = state.cursor.char_range().map(|range| {
+                let (primary, secondary) = (moved(range.primary), moved(range.secondary));
+                CCursorRange { primary, secondary, h_pos: None }
+            });
+            state.cursor.set_char_range(range);
+            state.clear_undoer();
+            state.store(ui.ctx(), id);
+        }
+        self.buffer = text.to_string();
+        self.suggestions.set(None);
+    }
+
+    fn edit(
+        &mut self,
+        ui: &mut Ui,
+        id: Id,
+        scene: &SceneView,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let has_focus = ui.memory(|memory| memory.has_focus(id));
+        let time = ui.input(|input| input.time);
+        if has_focus {
+            self.history_keys(ui, requests);
+            if let SuggestionKey::Taken(index) = self.suggestions.keys(ui) {
+                self.take(ui, id, index, time, context, requests);
+            }
+        }
+        if let Some(at) = self.jump.take() {
+            let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+            let cursor = CCursor::new(characters_before(&self.buffer, at));
+            state.cursor.set_char_range(Some(CCursorRange::one(cursor)));
+            state.store(ui.ctx(), id);
+            ui.memory_mut(|memory| memory.request_focus(id));
+            self.followed = None;
+        }
+        let asks = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::CTRL, Key::Space));
+        let before = self.buffer.clone();
+        let width = margin::width(ui, &before);
+        let text_width = self.layout.galley(ui, &before).size().x + 24.0;
+        let room = text_width.max(ui.available_width() - width - 20.0);
+        let layout = &mut self.layout;
+        let mut layouter = |ui: &Ui, text: &dyn TextBuffer, _: f32| layout.galley(ui, text.as_str());
+        let selected = selected_range(scene, context);
+        let follows = selected.clone().filter(|range| self.followed.as_ref() != Some(range) && !has_focus);
+        let area = ScrollArea::both().auto_shrink(false).id_salt("script");
+        let output = area.show(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            ui.horizontal_top(|ui| {
+                ui.add_space(width);
+                let field = TextEdit::multiline(&mut self.buffer)
+                    .id(id)
+                    .frame(Frame::NONE.inner_margin(Margin { left: 6, right: 12, top: 4, bottom: 12 }))
+                    .lock_focus(true)
+                    .desired_width(room)
+                    .desired_rows(1)
+                    .layouter(&mut layouter);
+                let background = ui.painter().add(egui::Shape::Noop);
+                let output = field.show(ui);
+                let lines = selected.as_ref().map(|range| lines_of(&self.buffer, range));
+                let sheet = margin::MarginSheet { text: &self.buffer, scene, output: &output, width, lines };
+                margin::background(ui, background, &sheet);
+                margin::show(ui, &sheet);
+                if let Some(range) = &follows {
+                    margin::scroll_to(ui, &sheet, range);
+                }
+                output
+            })
+            .inner
+        });
+        let output = output.inner;
+        let _named = output.response.response.clone().accessible_name("Script of the scene");
+        self.followed = selected.or(self.followed.take());
+        let cursor = output.cursor_range.map(|range| byte_of(&self.buffer, range.primary.index.0));
+        if before != self.buffer {
+            self.typed(&before, time, context, requests);
+            let at = cursor.unwrap_or(self.buffer.len());
+            self.suggest(scene, at, false);
+        } else if asks && let Some(at) = cursor {
+            self.suggest(scene, at, true);
+        }
+        let moved = cursor.filter(|at| has_focus && self.told != Some(*at));
+        if let Some(at) = moved {
+            if before == self.buffer && !asks {
+                self.suggestions.set(None);
+            }
+            self.told = Some(at);
+            self.followed = None;
+            requests.push(Request::Scene(SceneRequest::Cursor(at)));
+        }
+        self.finish_word(ui, has_focus, time, requests);
+        if let (true, Some(range)) = (has_focus, output.cursor_range) {
+            let caret = output.galley.pos_from_cursor(range.primary).translate(output.galley_pos.to_vec2());
+            if let Some(index) = self.suggestions.show(ui, caret) {
+                self.take(ui, id, index, time, context, requests);
+            }
+        } else if !ui
+            .input(|input| input.pointer.latest_pos())
+            .is_some_and(|at| self.suggestions.contains(ui, at))
+        {
+            self.suggestions.set(None);
+        }
+    }
+
+    /// Gives undo and redo to the document: it has the steps of this text.
+    fn history_keys(&mut self, ui: &Ui, requests: &mut Vec<Request>) {
+        let pressed = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
+        let redo =
+            pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z) || pressed(Modifiers::COMMAND, Key::Y);
+        let undo = pressed(Modifiers::COMMAND, Key::Z);
+        if undo || redo {
+            requests.extend(self.word.end().map(|gesture| Request::Change(Change::Release(gesture))));
+            requests.push(Request::Command(if redo { CommandId::Redo } else { CommandId::Undo }));
+        }
+    }
+
+    /// Sends what was typed as a part of a word.
+    fn typed(&mut self, before: &str, time: f64, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some(splice) = TextSplice::between(before, &self.buffer) else { return };
+        let (gesture, over) = self.word.gesture(&splice, time, || context.new_gesture());
+        requests.extend(over.map(|gesture| Request::Change(Change::Release(gesture))));
+        let label = match (splice.range.is_empty(), splice.text.is_empty()) {
+            (_, true) => "Delete text",
+            (false, false) => "Replace text",
+            (true, false) if splice.text.chars().count() > 1 => "Paste text",
+            (true, false) => "Type",
+        };
+        let from: Arc<str> = before.into();
+        let change = ScriptChange { from, text: self.buffer.clone(), label, gesture: Some(gesture) };
+        requests.push(Request::Scene(SceneRequest::Typed(change)));
+    }
+
+    /// Ends the word after a pause, or when the field has lost the focus.
+    fn finish_word(&mut self, ui: &Ui, has_focus: bool, time: f64, requests: &mut Vec<Request>) {
+        let over = if has_focus { self.word.after_pause(time) } else { self.word.end() };
+        requests.extend(over.map(|gesture| Request::Change(Change::Release(gesture))));
+        if let Some(rest) = self.word.rest(time) {
+            ui.ctx().request_repaint_after(Duration::from_secs_f64(rest));
+        }
+    }
+
+    fn suggest(&mut self, scene: &SceneView, at: usize, asked: bool) {
+        let files: Vec<&str> = scene.models.keys().map(String::as_str).collect();
+        let names = CompletionNames { plan: scene.plan.as_deref(), files: &files };
+        let found = completions(&self.buffer, at, &names);
+        // Unasked, a list appears only where something of the word is typed, or a tag or value begins.
+        let begins = self.buffer.get(..at).is_some_and(|text| text.ends_with(['<', '"', '\'', '.', '/']));
+        self.suggestions.set(found.filter(|found| asked || begins || found.range.start < at));
+    }
+
+    /// Writes a suggestion into the text.
+    fn take(
+        &mut self,
+        ui: &Ui,
+        id: Id,
+        index: usize,
+        time: f64,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let Some((range, item)) = self
+            .suggestions
+            .shown()
+            .and_then(|shown| Some((shown.range.clone(), shown.items.get(index)?.clone())))
+        else {
+            return;
+        };
+        self.suggestions.set(None);
+        let before = self.buffer.clone();
+        if self.buffer.get(range.clone()).is_none() {
+            return;
+        }
+        self.buffer.replace_range(range.clone(), &item.insert);
+        let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+        let cursor = CCursor::new(characters_before(&self.buffer, range.start + item.cursor));
+        state.cursor.set_char_range(Some(CCursorRange::one(cursor)));
+        state.store(ui.ctx(), id);
+        ui.memory_mut(|memory| memory.request_focus(id));
+        self.typed(&before, time, context, requests);
+    }
+}
+
+/// Returns the bytes of what is selected elsewhere: the action, or the active thing; `None` while the text is another one than the script.
+fn selected_range(scene: &SceneView, context: &PanelContext<'_>) -> Option<Range<usize>> {
+    let (script, editing) = (scene.script.as_ref()?, context.scene_editing);
+    if **script.tree().text() != **editing.text(scene) {
+        return None;
+    }
+    if let Some(action) = editing.action() {
+        script.actions().get(action)?;
+        return Some(script.element(action).range.clone());
+    }
+    let thing = editing.things().last()?;
+    let element = script.things().find(|element| element.value("id") == Some(thing))?;
+    Some(element.range.clone())
+}

@@ -1,0 +1,80 @@
+//! The entries of the context menu of a bar.
+
+use super::SceneSheet;
+use super::lane_menu::gesture;
+use crate::panels::commands::Id;
+use crate::panels::menu::{item, submenu};
+use crate::panels::request::Request;
+use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed};
+use dragonfly_anim::stage::script::StageRepeat;
+use dragonfly_anim::stage::table::element;
+use dragonfly_anim::stage::time::{Decimal, StageTime};
+use egui::Ui;
+
+/// Factors of speed that are offered.
+const SPEEDS: [f64; 7] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, -1.0];
+/// Numbers of repetitions that are offered.
+const REPEATS: [&str; 4] = ["1", "2", "3", "4"];
+/// Durations of fades that are offered, seconds.
+const FADES: [f64; 5] = [0.0, 0.1, 0.25, 0.5, 1.0];
+
+/// Draws the entries for an action.
+pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {
+    let Some((_, bar)) = sheet.lanes.bar_of(action) else { return };
+    let row = element(bar.kind);
+    let has = |name: &str| row.is_some_and(|row| row.attribute(name).is_some());
+    for id in [Id::ClipToPlayhead, Id::ClipStartToPlayhead, Id::ClipEndToPlayhead] {
+        item(ui, sheet.context, id, false, requests);
+    }
+    ui.separator();
+    if has("fade-in") || has("blend") {
+        fade_entries(ui, "Fade in", FadeEnd::In, action, sheet, requests);
+    }
+    if has("fade-out") {
+        fade_entries(ui, "Fade out", FadeEnd::Out, action, sheet, requests);
+    }
+    if bar.kind == "play" {
+        submenu(ui, "Speed", |ui| {
+            for speed in SPEEDS {
+                let title = format!("{speed}×");
+                gesture(ui, &title, "Change speed", sheet, requests, |scene| set_speed(scene, action, speed));
+            }
+        });
+    }
+    if has("repeat") {
+        submenu(ui, "Repeat", |ui| {
+            for times in REPEATS {
+                let Some(number) = Decimal::parse(times) else { continue };
+                let title = format!("{times}×");
+                gesture(ui, &title, "Change repeat", sheet, requests, |scene| {
+                    set_repeat(scene, action, StageRepeat::Times(number))
+                });
+            }
+            gesture(ui, "For as long as there is time", "Change repeat", sheet, requests, |scene| {
+                set_repeat(scene, action, StageRepeat::Fill)
+            });
+        });
+    }
+    ui.separator();
+    for id in [Id::SceneDuplicate, Id::SceneDelete, Id::SceneLift] {
+        item(ui, sheet.context, id, false, requests);
+    }
+}
+
+fn fade_entries(
+    ui: &mut Ui,
+    title: &str,
+    end: FadeEnd,
+    action: usize,
+    sheet: &SceneSheet<'_>,
+    requests: &mut Vec<Request>,
+) {
+    submenu(ui, title, |ui| {
+        for seconds in FADES {
+            let title = if seconds == 0.0 { "None".to_owned() } else { format!("{seconds} s") };
+            gesture(ui, &title, "Change fade", sheet, requests, |scene| {
+                set_fade(scene, action, end, StageTime::from_seconds(seconds))
+            });
+        }
+    });
+}

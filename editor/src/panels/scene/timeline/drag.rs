@@ -1,0 +1,265 @@
+//! Drags of bars: moved, trimmed, faded, stretched.
+
+use super::SceneSheet;
+use super::lane_layout::{BarPart, SceneHit};
+use super::snap::{frame_at, snapped_time};
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, readout};
+use crate::panels::request::Request;
+use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
+use dragonfly_anim::stage::gesture::{
+    ClipOrder, FadeEnd, Followers, GestureRefusal, move_clip, set_fade, set_speed, trim_end, trim_start,
+};
+use dragonfly_anim::stage::lanes::SceneBar;
+use dragonfly_anim::stage::time::StageTime;
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::history::Gesture;
+use egui::{CursorIcon, Pos2, Response, Ui};
+use glam::Vec2;
+
+/// The drag of a bar, and what is under the pointer.
+#[derive(Debug, Default)]
+pub(super) struct BarDragging {
+    drag: PanelDrag<SceneHit, HeldBar>,
+    hovered: Option<SceneHit>,
+}
+
+/// A bar that is dragged.
+#[derive(Clone, Debug)]
+struct HeldBar {
+    base: SceneBase,
+    gesture: Gesture,
+    bar: SceneBar,
+    part: BarPart,
+    /// Time of the pointer when it was pressed.
+    grabbed: StageTime,
+    /// Name of the thing.
+    name: Box<str>,
+    /// Whether something was sent.
+    is_sent: bool,
+}
+
+impl BarDragging {
+    /// Returns what is under the pointer, or dragged.
+    pub(super) fn hovered(&self) -> Option<SceneHit> {
+        self.hovered
+    }
+
+    /// Returns whether a button is held.
+    pub(super) fn is_busy(&self) -> bool {
+        self.drag.is_busy()
+    }
+
+    pub(super) fn update(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        sheet: &SceneSheet<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let top = sheet.canvas.top() - sheet.scroll;
+        let hit = |at: Pos2| match sheet.canvas.contains(at) {
+            true => sheet.layout.hit(sheet.lanes, at, top, sheet.scale),
+            false => SceneHit::Nothing,
+        };
+        let input = PointerInput::read(ui);
+        if !self.drag.is_busy() {
+            self.hovered = response.hover_pos().map(hit);
+        }
+        self.cursor(ui);
+        let held = input.primary_down && response.is_pointer_button_down_on()
+            || input.clicked && response.contains_pointer();
+        match self.drag.step(&input, held, hit) {
+            DragEvent::Clicked(press) => click(&press.on, sheet, press.modifiers, requests),
+            DragEvent::Started(press) => {
+                let time = StageTime::from_seconds(f64::from(sheet.scale.time_at(press.at.x)));
+                match begin(press.on, time, sheet) {
+                    Ok(Some(held)) => {
+                        requests.push(Request::Scene(SceneRequest::SelectAction(Some(held.bar.action))));
+                        self.drag.begin(held);
+                    }
+                    Ok(None) => {}
+                    Err(refusal) => requests.push(Request::Scene(SceneRequest::Refused(refusal.to_string()))),
+                }
+            }
+            DragEvent::Moved(at) => {
+                if let Some(held) = self.drag.drag_mut() {
+                    held.moved(ui, at, &input, sheet, requests);
+                }
+            }
+            DragEvent::Dropped(held) if held.is_sent => {
+                requests.push(Request::Change(Change::Release(held.gesture)));
+            }
+            DragEvent::Cancelled(held) if held.is_sent => {
+                requests.push(Request::Change(Change::Cancel(held.gesture)));
+            }
+            DragEvent::Dropped(_) | DragEvent::Cancelled(_) | DragEvent::Nothing | DragEvent::Pressed => {}
+        }
+        if response.double_clicked()
+            && let Some(SceneHit::Bar { action, .. }) = self.hovered
+            && let Some((_, bar)) = sheet.lanes.bar_of(action)
+        {
+            requests.push(Request::Seek(bar.begin.seconds() as f32));
+        }
+    }
+
+    fn cursor(&self, ui: &Ui) {
+        let part = match (self.drag.drag(), self.hovered) {
+            (Some(held), _) => held.part,
+            (None, Some(SceneHit::Bar { part, .. })) => part,
+            (None, Some(SceneHit::Lane(_) | SceneHit::Nothing) | None) => return,
+        };
+        ui.ctx().set_cursor_icon(match part {
+            BarPart::Body if self.drag.drag().is_some() => CursorIcon::Grabbing,
+            BarPart::Body => CursorIcon::Grab,
+            BarPart::Start | BarPart::End => CursorIcon::ResizeHorizontal,
+            BarPart::FadeIn | BarPart::FadeOut => CursorIcon::ResizeColumn,
+        });
+    }
+}
+
+/// Selects what was clicked.
+fn click(hit: &SceneHit, sheet: &SceneSheet<'_>, modifiers: egui::Modifiers, requests: &mut Vec<Request>) {
+    match *hit {
+        SceneHit::Bar { action, .. } => {
+            requests.push(Request::Scene(SceneRequest::SelectAction(Some(action))))
+        }
+        SceneHit::Lane(lane) => {
+            requests.push(Request::Scene(SceneRequest::SelectAction(None)));
+            if let Some(lane) = sheet.lanes.list.get(lane).filter(|lane| !lane.kind.is_empty()) {
+                let choice = if modifiers.command { Choice::Toggle } else { Choice::Replace };
+                requests.push(Request::Scene(SceneRequest::SelectThings(vec![lane.name.clone()], choice)));
+            }
+        }
+        SceneHit::Nothing => requests.push(Request::Scene(SceneRequest::SelectAction(None))),
+    }
+}
+
+/// Begins a drag; `Ok(None)` where there is nothing to drag.
+fn begin(
+    hit: SceneHit,
+    grabbed: StageTime,
+    sheet: &SceneSheet<'_>,
+) -> Result<Option<HeldBar>, GestureRefusal> {
+    let SceneHit::Bar { lane, action, part } = hit else { return Ok(None) };
+    let Some((lane, bar)) = sheet.lanes.list.get(lane).zip(sheet.lanes.bar_of(action).map(|(_, bar)| bar))
+    else {
+        return Ok(None);
+    };
+    if sheet.context.scene_editing.is_locked(&lane.name) {
+        return Err(GestureRefusal(format!("{} is locked", lane.name)));
+    }
+    let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene))?;
+    let gesture = sheet.context.new_gesture();
+    Ok(Some(HeldBar {
+        base,
+        gesture,
+        bar: bar.clone(),
+        part,
+        grabbed,
+        name: lane.name.clone(),
+        is_sent: false,
+    }))
+}
+
+impl HeldBar {
+    fn moved(
+        &mut self,
+        ui: &Ui,
+        at: Vec2,
+        input: &PointerInput,
+        sheet: &SceneSheet<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let context = sheet.context;
+        let pointer = StageTime::from_seconds(f64::from(sheet.scale.time_at(at.x)));
+        let by = pointer - self.grabbed;
+        let edge = match self.part {
+            BarPart::Body | BarPart::Start => self.bar.begin + by,
+            BarPart::End => self.bar.end + by,
+            BarPart::FadeIn => self.bar.begin + self.bar.fade_in + by,
+            BarPart::FadeOut => self.bar.end - self.bar.fade_out + by,
+        };
+        let rate = self.base.script.rate();
+        let reach = StageTime::from_seconds(f64::from(sheet.scale.seconds(6.0)));
+        let snaps = context.keys.snap() != input.modifiers.command;
+        let edge = match snaps {
+            true => snapped_time(edge, sheet.lanes, self.bar.action, context.scene_time(), reach, rate),
+            // The nearest hundredth of a frame, so that texts stay short.
+            false => {
+                frame_at(edge, rate)
+                    + StageTime::from_ticks((edge - frame_at(edge, rate)).ticks() / 7056 * 7056)
+            }
+        };
+        let edge = edge.max(StageTime::ZERO);
+        let followers =
+            if context.scene_editing.ripple() == input.ripple { Followers::Stay } else { Followers::Follow };
+        let (label, result) = self.gesture_to(edge, input.modifiers.alt, followers);
+        let pointer = egui::pos2(at.x, at.y);
+        match result {
+            Ok(text) => {
+                readout(ui, pointer, &self.told(edge, context.frame_rate));
+                self.is_sent = true;
+                let from = std::sync::Arc::clone(self.base.text());
+                let change = ScriptChange { from, text, label, gesture: Some(self.gesture) };
+                requests.push(Request::Scene(SceneRequest::Text(change)));
+            }
+            Err(refusal) => readout(ui, pointer, &refusal.to_string()),
+        }
+    }
+
+    /// Returns the label and the text of the gesture that brings the dragged part to `edge`.
+    fn gesture_to(
+        &self,
+        edge: StageTime,
+        alt: bool,
+        followers: Followers,
+    ) -> (&'static str, Result<String, GestureRefusal>) {
+        let (scene, action) = (self.base.scene(), self.bar.action);
+        match self.part {
+            BarPart::Body => {
+                let order = if alt { ClipOrder::Keep } else { ClipOrder::Change };
+                ("Move clip", move_clip(&scene, action, edge, order, followers))
+            }
+            BarPart::Start => ("Trim start", trim_start(&scene, action, edge)),
+            BarPart::End if alt => ("Change speed", set_speed(&scene, action, self.speed_to(edge))),
+            BarPart::End => ("Trim end", trim_end(&scene, action, edge, followers)),
+            BarPart::FadeIn => ("Change fade", set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin)),
+            BarPart::FadeOut => ("Change fade", set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge)),
+        }
+    }
+
+    /// Returns the speed with which the bar would end at a time.
+    fn speed_to(&self, edge: StageTime) -> f64 {
+        let speed = self
+            .base
+            .script
+            .element(self.bar.action)
+            .value("speed")
+            .and_then(|text| text.parse::<f64>().ok());
+        let (old, new) = ((self.bar.end - self.bar.begin).seconds(), (edge - self.bar.begin).seconds());
+        speed.unwrap_or(1.0) * old / new.max(1e-3)
+    }
+
+    /// Returns the numbers of the drag.
+    fn told(&self, edge: StageTime, frame_rate: u32) -> String {
+        let seconds = edge.seconds();
+        let frame = (seconds * f64::from(frame_rate)).round();
+        let what = match self.part {
+            BarPart::Body => format!(
+                "begins at {seconds:.3} s, frame {frame}, {:+.3} s",
+                (edge - self.bar.begin).seconds()
+            ),
+            BarPart::Start => format!("starts at {seconds:.3} s, frame {frame}"),
+            BarPart::End => {
+                format!(
+                    "ends at {seconds:.3} s, frame {frame}, lasts {:.3} s",
+                    (edge - self.bar.begin).seconds()
+                )
+            }
+            BarPart::FadeIn => format!("fades in for {:.3} s", (edge - self.bar.begin).seconds().max(0.0)),
+            BarPart::FadeOut => format!("fades out for {:.3} s", (self.bar.end - edge).seconds().max(0.0)),
+        };
+        format!("{} · {}: {what}", self.name, self.bar.label)
+    }
+}

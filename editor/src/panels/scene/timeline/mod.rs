@@ -1,0 +1,177 @@
+//! The timeline of a scene: a lane for the shots, for each role, prop, light and effect, for sounds and titles.
+
+mod bar_menu;
+mod drag;
+mod gutter;
+mod lane_layout;
+mod lane_menu;
+mod paint;
+mod ruler;
+mod snap;
+
+use super::super::context::PanelContext;
+use super::super::dope;
+use super::super::keys::{KeysRequest, TimeScale};
+use super::super::request::Request;
+use super::super::theme::Theme;
+use super::super::{Panel, PanelPlace, transport, widgets};
+use super::SceneRequest;
+use crate::panels::panel::PanelSubject;
+use drag::BarDragging;
+use dragonfly_anim::stage::lanes::SceneLanes;
+use dragonfly_document::SceneView;
+use dragonfly_picture::between;
+use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
+pub use lane_layout::{BarPart, LaneLayout, SceneHit};
+pub use snap::snapped_time;
+
+/// Width of the names of the lanes.
+const GUTTER: f32 = 150.0;
+/// Margin before the start and after the end of the scene.
+const MARGIN: f32 = 16.0;
+
+/// Transport, ruler and lanes.
+#[derive(Debug, Default)]
+pub struct SceneTimeline {
+    /// Number of points by which the lanes are scrolled up.
+    scroll: f32,
+    drag: BarDragging,
+    scrub: ruler::SceneScrub,
+    menu: lane_menu::SceneMenu,
+}
+
+/// The timeline in one frame, as its parts read it.
+#[derive(Clone, Copy)]
+struct SceneSheet<'a> {
+    scene: &'a SceneView,
+    lanes: &'a SceneLanes,
+    layout: &'a LaneLayout,
+    scale: &'a TimeScale,
+    context: &'a PanelContext<'a>,
+    theme: &'a Theme,
+    /// The lanes.
+    canvas: Rect,
+    /// The ruler.
+    head: Rect,
+    /// The names of the lanes.
+    names: Rect,
+    /// Number of points by which the lanes are scrolled up.
+    scroll: f32,
+}
+
+impl Panel for SceneTimeline {
+    fn id(&self) -> &'static str {
+        "scene_timeline"
+    }
+
+    fn title(&self) -> &'static str {
+        "Scene timeline"
+    }
+
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Below
+    }
+
+    fn subject(&self) -> PanelSubject {
+        PanelSubject::Scene
+    }
+
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        transport::show(ui, context, requests);
+        let rect = ui.available_rect_before_wrap();
+        if rect.height() < 32.0 || rect.width() < 140.0 {
+            return;
+        }
+        ui.painter().rect_filled(rect, CornerRadius::ZERO, Theme::of(ui).sunken);
+        let Some(scene) = context.scene() else {
+            return widgets::empty(
+                ui,
+                "The timeline of a scene appears here",
+                "File ▸ New scene… or open a scene.xml",
+            );
+        };
+        if scene.plan.is_none() {
+            let hint = if scene.errors.is_empty() {
+                "Its models are being read"
+            } else {
+                "Correct the script: its panel lists the errors"
+            };
+            return widgets::empty(ui, "The scene cannot be shown yet", hint);
+        }
+        self.lanes(ui, rect, scene, context, requests);
+    }
+}
+
+impl SceneTimeline {
+    fn lanes(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        scene: &SceneView,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let gutter = if rect.width() < 480.0 { (rect.width() * 0.3).clamp(64.0, 120.0) } else { GUTTER };
+        let left = rect.left() + gutter;
+        let head = Rect::from_min_max(pos2(left, rect.top()), pos2(rect.right(), rect.top() + ruler::HEIGHT));
+        let canvas = Rect::from_min_max(pos2(left, head.bottom()), rect.max);
+        let names = Rect::from_min_max(pos2(rect.left(), head.bottom()), pos2(left, rect.bottom()));
+        let lanes = std::sync::Arc::clone(context.scene_editing.lanes());
+        let layout = LaneLayout::of(&lanes);
+        let scale = TimeScale {
+            left: canvas.left() + MARGIN,
+            width: (canvas.width() - 2.0 * MARGIN).max(1.0),
+            window: context.scene_editing.window(),
+        };
+        let response = ui.interact(canvas, ui.scope_id().with("lanes"), Sense::click_and_drag());
+        let bars: usize = lanes.list.iter().map(|lane| lane.bars.len()).sum();
+        response.widget_info(|| {
+            WidgetInfo::labeled(
+                egui::accesskit::Role::Canvas,
+                true,
+                format!("Lanes of the scene, {bars} actions"),
+            )
+        });
+        let mut moved = Vec::new();
+        let content = layout.height();
+        let mut scroll = self.scroll - dope::pan(ui, &response, &scale, &mut moved);
+        if response.contains_pointer() || ui.rect_contains_pointer(names) {
+            // The wheel zooms over the lanes as in the dope sheet, and scrolls over the names.
+            if ui.rect_contains_pointer(names) {
+                scroll -= ui.input(|input| input.smooth_scroll_delta().y);
+            }
+        }
+        self.scroll = between(scroll, 0.0, (content - canvas.height()).max(0.0));
+        dope::wheel(ui, &response, &scale, &mut moved);
+        let sheet = SceneSheet {
+            scene,
+            lanes: &lanes,
+            layout: &layout,
+            scale: &scale,
+            context,
+            theme: Theme::of(ui),
+            canvas,
+            head,
+            names,
+            scroll: self.scroll,
+        };
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        paint::lanes(&painter, &sheet);
+        paint::bars(&painter, &sheet, self.drag.hovered());
+        self.drag.update(ui, &response, &sheet, requests);
+        self.menu.show(&response, &self.drag, &sheet, requests);
+        self.scrub.show(ui, &painter, &sheet, &mut moved);
+        paint::playhead(&painter, &sheet);
+        gutter::show(ui, &sheet, requests);
+        gutter::tools(ui, Rect::from_min_max(rect.min, pos2(left, head.bottom())), context, requests);
+        if bars == 0 {
+            paint::hint(&painter, &sheet);
+        }
+        painter.vline(canvas.left() - 0.5, rect.y_range(), Stroke::new(1.0, Theme::of(ui).line));
+        requests.extend(moved.into_iter().map(|request| match request {
+            Request::Timeline(KeysRequest::Window(window)) => Request::Scene(SceneRequest::Window(window)),
+            other => other,
+        }));
+    }
+}

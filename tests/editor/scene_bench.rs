@@ -1,0 +1,109 @@
+//! A scene in the user interface without a real window: two foxes, two cameras, a script.
+
+use crate::workbench::{Window, Workbench};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use dragonfly_anim::stage::{LiveStage, StageAssets, StageModel};
+use dragonfly_document::adapter::{ModelAdapter, TextFiles};
+use dragonfly_document::history::Edited;
+use dragonfly_document::{LoadedModel, SceneModel, SceneView, View};
+use dragonfly_kit::document::fixture;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+/// A scene of two foxes: one looks around and runs, the other one walks.
+pub(crate) const FOXES: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<script version="1" fps="24" size="1280x720">
+  <!-- Two foxes meet. -->
+  <cast>
+    <role   id="anna"  model="Fox.glb" at="-1 0 0" facing="90" scale="0.01"/>
+    <role   id="ben"   model="Fox.glb" at="1 0 0" facing="-90" scale="0.01"/>
+    <camera id="wide"  at="0 1 5" look="0 0.5 0" lens="35mm"/>
+    <camera id="close" at="-2 0.6 2" look="ben" lens="85mm"/>
+    <light  id="sun"   kind="sun" direction="-1 -2 -1"/>
+    <path   id="aisle" points="-1 0 0  0 0 0.6  1 0 0" curve="smooth"/>
+    <mark   id="door"  at="0.6 0 0.8"/>
+  </cast>
+
+  <par id="scene-1">
+    <shot who="wide" begin="0"/>
+    <shot who="close" begin="looks.end" blend="0.5"/>
+    <seq>
+      <play id="looks" who="anna" take="Survey" to="2"><at name="sees" time="1.25"/></play>
+      <play who="anna" take="Run" begin="-0.5" fade-in="0.5" repeat="3"/>
+    </seq>
+    <move who="ben" path="aisle" take="Walk" begin="1"/>
+    <look who="ben" at="anna" bones="b_Head_05" begin="looks.sees" dur="2" fade-in="0.25" fade-out="0.25"/>
+    <change who="sun" property="strength" to="0.4" begin="2" dur="1.5"/>
+    <title text="The End" begin="4" dur="1" fade-in="0.5"/>
+  </par>
+</script>
+"#;
+
+/// The models of a scene on the bench, and the plan of its newest text.
+pub(crate) struct SceneStage {
+    assets: StageAssets,
+    models: Arc<BTreeMap<String, SceneModel>>,
+    live: LiveStage,
+}
+
+fn fox() -> (Arc<LoadedModel>, Arc<StageModel>) {
+    static FOX: OnceLock<(Arc<LoadedModel>, Arc<StageModel>)> = OnceLock::new();
+    FOX.get_or_init(|| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/gltf/Fox.glb");
+        let bytes = std::fs::read(path).unwrap();
+        let model = Arc::new(read("Fox.glb", &bytes, &NoFiles, &ReadOptions::default()).unwrap().model);
+        let loaded = fixture::view("Fox.glb", model.animation.skeleton.as_ref().clone(), &[]).loaded;
+        (loaded, Arc::new(StageModel::new(model)))
+    })
+    .clone()
+}
+
+impl SceneStage {
+    fn new() -> Self {
+        let (loaded, model) = fox();
+        let mut assets = StageAssets::default();
+        assets.add_model("Fox.glb", model);
+        let models = BTreeMap::from([("Fox.glb".to_owned(), SceneModel::Loaded(loaded))]);
+        Self { assets, models: Arc::new(models), live: LiveStage::default() }
+    }
+
+    /// Returns the view of a newer text, as the document's thread publishes it.
+    pub(crate) fn view(&mut self, text: &Arc<str>) -> Arc<SceneView> {
+        self.live.update(Arc::clone(text), &self.assets);
+        Arc::new(SceneView {
+            text: Arc::clone(text),
+            script: self.live.script().cloned(),
+            plan: self.live.plan().cloned(),
+            errors: self.live.errors().into(),
+            models: Arc::clone(&self.models),
+            ..SceneView::default()
+        })
+    }
+}
+
+/// Opens a script in the user interface.
+pub(crate) fn scene(text: &str) -> Workbench {
+    let mut stage = SceneStage::new();
+    let skeleton = dragonfly_anim::data::Skeleton { bones: Vec::new() };
+    let empty = fixture::view("scene.xml", skeleton, &[]);
+    let text: Arc<str> = text.into();
+    let adapter =
+        ModelAdapter::of(&empty.loaded.model).with_texts(TextFiles::one("scene.xml", Arc::clone(&text)));
+    let view = View { scene: Some(stage.view(&text)), ..empty };
+    let mut bench = Workbench::new(Some(view));
+    bench.edited = Some(Edited::new(adapter));
+    bench.stage = Some(stage);
+    bench
+}
+
+/// Returns the text of the script in the document.
+pub(crate) fn text(window: &Window) -> String {
+    window.state().edited.as_ref().unwrap().adapter().texts().main().unwrap().to_string()
+}
+
+/// Returns the lines that only one of two texts has.
+pub(crate) fn new_lines(old: &str, new: &str) -> Vec<String> {
+    let old: Vec<&str> = old.lines().collect();
+    new.lines().filter(|line| !old.contains(line)).map(|line| line.trim().to_owned()).collect()
+}

@@ -1,0 +1,108 @@
+//! The list of things: selected, renamed, hidden, added, deleted.
+
+use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::workbench::{Window, type_into};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::{Effect, Request};
+use dragonfly_document::bones::Choice;
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+fn window() -> Window {
+    scene(FOXES).window()
+}
+
+fn run(window: &mut Window, id: Id) {
+    let effect = window.state_mut().state.execute(Request::Command(id));
+    if let Some(Effect::Change(change)) = effect {
+        window.state_mut().change(change);
+    }
+    window.run_steps(3);
+}
+
+fn things(window: &Window) -> Vec<String> {
+    window.state().state.read().scene_editing.things().iter().map(|id| id.to_string()).collect()
+}
+
+#[test]
+fn a_click_selects_a_thing_and_ctrl_adds_another() {
+    let mut window = window();
+    window.get_by_label("ben, role").click();
+    window.run_steps(2);
+    assert_eq!(things(&window), ["ben"]);
+    window.get_by_label("wide, camera").click_modifiers(Modifiers::COMMAND);
+    window.run_steps(2);
+    assert_eq!(things(&window), ["ben", "wide"]);
+}
+
+#[test]
+fn a_new_name_is_written_wherever_the_script_uses_the_old_one() {
+    let mut window = window();
+    window.get_by_label("ben, role").click();
+    window.run_steps(2);
+    window.key_press(Key::F2);
+    window.run_steps(2);
+    type_into(&mut window, "Name of the thing", "bernard", Key::Enter);
+    let new = text(&window);
+    assert!(
+        !new.contains("\"ben\"") && new.matches("\"bernard\"").count() == FOXES.matches("\"ben\"").count()
+    );
+    assert_eq!(window.state().steps(), (1, 1));
+    assert!(window.query_by_label("bernard, role").is_some());
+}
+
+#[test]
+fn an_added_thing_is_one_line_and_selected() {
+    let mut window = window();
+    run(&mut window, Id::AddSceneCamera);
+    let line = r#"<camera id="camera" at="0 1.6 6" look="0 1 0" lens="35mm"/>"#;
+    assert_eq!(new_lines(FOXES, &text(&window)), [line]);
+    assert_eq!(things(&window), ["camera"]);
+    run(&mut window, Id::AddMark);
+    assert_eq!(things(&window), ["mark"]);
+}
+
+#[test]
+fn a_thing_that_actions_name_is_not_deleted() {
+    let mut window = window();
+    let select = |window: &mut Window, ids: &[&str]| {
+        let ids = ids.iter().map(|id| (*id).into()).collect();
+        window.state_mut().state.execute(Request::Scene(SceneRequest::SelectThings(ids, Choice::Replace)));
+        window.run_steps(1);
+    };
+    select(&mut window, &["ben"]);
+    run(&mut window, Id::SceneDelete);
+    assert_eq!(text(&window), FOXES);
+    select(&mut window, &["door"]);
+    run(&mut window, Id::SceneDelete);
+    assert_eq!(text(&window), FOXES.replace("    <mark   id=\"door\"  at=\"0.6 0 0.8\"/>\n", ""));
+}
+
+#[test]
+fn a_value_typed_into_the_attributes_is_written_and_a_wrong_one_is_refused() {
+    let mut window = window();
+    window.get_by_label("wide, camera").click();
+    window.run_steps(2);
+    type_into(&mut window, "lens", "50mm", Key::Enter);
+    let line = r#"<camera id="wide"  at="0 1 5" look="0 0.5 0" lens="50mm"/>"#;
+    assert_eq!(new_lines(FOXES, &text(&window)), [line]);
+    type_into(&mut window, "lens", "wide", Key::Enter);
+    assert_eq!(new_lines(FOXES, &text(&window)), [line], "no focal length");
+    type_into(&mut window, "look", "nobody", Key::Enter);
+    assert_eq!(new_lines(FOXES, &text(&window)), [line], "nothing is called that");
+}
+
+#[test]
+fn a_scene_has_its_panels_and_a_model_has_its_own() {
+    let window = window();
+    for label in ["Scene", "Scene timeline", "Script", "History"] {
+        assert!(window.query_all_by_label(label).count() > 0, "{label}");
+    }
+    for label in ["Skeleton", "Curves", "Takes"] {
+        assert_eq!(window.query_all_by_label(label).count(), 0, "{label}");
+    }
+    let model = crate::workbench::Workbench::full().window();
+    assert_eq!(model.query_all_by_label("Scene timeline").count(), 0);
+    assert!(model.query_all_by_label("Skeleton").count() > 0);
+}

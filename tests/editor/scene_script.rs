@@ -1,0 +1,155 @@
+//! The script panel: what is typed, the steps it makes, what follows it.
+
+use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::workbench::Window;
+use dragonfly::panels::Request;
+use dragonfly::panels::scene::SceneRequest;
+use dragonfly_document::Change;
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+/// Puts the cursor of the script at a byte of its text.
+pub(crate) fn put_cursor(window: &mut Window, at: usize) {
+    window.get_by_label("Script of the scene").focus();
+    window.run_steps(2);
+    let id = egui::Id::unique("script of the scene");
+    let shown = window.state().state.read().scene().unwrap().text.clone();
+    let cursor = CCursor::new(shown[..at].chars().count());
+    let mut state = TextEditState::load(&window.ctx, id).unwrap_or_default();
+    state.cursor.set_char_range(Some(CCursorRange::one(cursor)));
+    state.store(&window.ctx, id);
+    window.run_steps(2);
+}
+
+/// Types letters one after the other.
+fn type_text(window: &mut Window, text: &str) {
+    for letter in text.chars() {
+        window.event(Event::Text(letter.to_string()));
+        window.run_steps(1);
+    }
+    window.run_steps(2);
+}
+
+fn place(text: &str, of: &str) -> usize {
+    text.find(of).unwrap() + of.len()
+}
+
+#[test]
+fn what_is_typed_is_in_the_document_and_the_timeline_follows() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "take=\"Walk\" begin=\"1"));
+    type_text(&mut window, ".5");
+    assert_eq!(
+        new_lines(FOXES, &text(&window)),
+        [r#"<move who="ben" path="aisle" take="Walk" begin="1.5"/>"#]
+    );
+    let lanes = window.state().state.read().scene_editing.lanes().clone();
+    let (_, bar) = lanes.bar_of(7).unwrap();
+    assert_eq!(bar.begin.seconds(), 1.5);
+    assert_eq!(
+        window.state().state.read().scene_editing.action(),
+        Some(7),
+        "the element at the cursor is selected"
+    );
+    assert_eq!(window.state().refused, [""; 0]);
+}
+
+#[test]
+fn undo_goes_back_word_by_word_to_the_same_bytes() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "Two foxes meet"));
+    type_text(&mut window, " in the wood");
+    let typed = FOXES.replace("Two foxes meet", "Two foxes meet in the wood");
+    assert_eq!(text(&window), typed);
+    let steps = window.state().steps().0;
+    assert!((3..=4).contains(&steps), "{steps} steps for three words");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(3);
+    assert_eq!(text(&window), typed.replace("wood", ""), "one word is undone");
+    for _ in 0..steps {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        window.run_steps(3);
+    }
+    assert_eq!(text(&window), FOXES);
+    for _ in 0..steps {
+        window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+        window.run_steps(3);
+    }
+    assert_eq!(text(&window), typed);
+}
+
+#[test]
+fn while_the_text_is_broken_the_last_good_scene_stays_and_the_error_is_listed() {
+    let mut window = scene(FOXES).window();
+    let before = window.state().state.read().scene_editing.lanes().clone();
+    put_cursor(&mut window, place(FOXES, "<move who=\"ben\" path=\"aisle\" tak"));
+    window.key_press(Key::Backspace);
+    window.run_steps(3);
+    let read = window.state().state.read();
+    let scene = read.scene().unwrap();
+    assert_eq!(scene.errors.len(), 1);
+    assert_eq!(read.scene_editing.lanes(), &before);
+    drop(read);
+    let errors = window.query_all_by_label_contains("Error at").count();
+    assert_eq!(errors, 1, "the list names it");
+    type_text(&mut window, "k");
+    assert_eq!(text(&window), FOXES);
+    assert!(window.state().state.read().scene().unwrap().errors.is_empty());
+}
+
+#[test]
+fn a_suggestion_is_taken_with_tab() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "<move who=\"ben\" path=\"aisle\" take=\"Wal"));
+    for _ in 0..3 {
+        window.key_press(Key::Backspace);
+        window.run_steps(1);
+    }
+    type_text(&mut window, "R");
+    window.key_press(Key::Tab);
+    window.run_steps(3);
+    assert_eq!(new_lines(FOXES, &text(&window)), [r#"<move who="ben" path="aisle" take="Run" begin="1"/>"#]);
+}
+
+#[test]
+fn what_is_selected_elsewhere_is_where_the_text_is_scrolled_to_and_the_cursor_selects() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "<camera id=\"clo"));
+    assert_eq!(window.state().state.read().scene_editing.things(), ["close".into()]);
+    window.state_mut().state.execute(Request::Scene(SceneRequest::SelectAction(Some(10))));
+    window.run_steps(2);
+    assert_eq!(window.state().state.read().scene_editing.action(), Some(10));
+}
+
+#[test]
+fn a_drag_in_the_timeline_and_typing_are_steps_of_one_history() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "Two foxes"));
+    type_text(&mut window, " x");
+    window.state_mut().state.execute(Request::Scene(SceneRequest::SelectAction(Some(7))));
+    let effect =
+        window.state_mut().state.execute(Request::Command(dragonfly::panels::commands::Id::ClipLater));
+    if let Some(dragonfly::panels::Effect::Change(change)) = effect {
+        window.state_mut().change(change);
+    }
+    window.run_steps(3);
+    assert!(text(&window).contains("begin=\"25f\"") && text(&window).contains("Two foxes x"));
+    while window.state().steps().0 > 0 {
+        window.state_mut().change(Change::Undo);
+    }
+    window.run_steps(3);
+    assert_eq!(text(&window), FOXES);
+}
+
+#[test]
+fn a_megabyte_of_text_is_edited_without_laying_it_out_again_when_nothing_changes() {
+    let many = "    <wait dur=\"1\"/>\n".repeat(50_000);
+    let large = FOXES.replace("  <par id=\"scene-1\">\n", &format!("  <par id=\"scene-1\">\n{many}"));
+    assert!(large.len() > 900_000);
+    let mut window = scene(&large).window();
+    put_cursor(&mut window, place(&large, "Two foxes"));
+    type_text(&mut window, "s");
+    assert!(text(&window).contains("Two foxess meet"));
+}
