@@ -59,8 +59,8 @@ fn view_of(text: &str, loaded: &Arc<LoadedModel>) -> Arc<SceneView> {
         text: text.into(),
         script: Some(Arc::new(script)),
         plan: Some(Arc::new(plan)),
-        errors: Arc::default(),
         models: Arc::new(models),
+        ..SceneView::default()
     })
 }
 

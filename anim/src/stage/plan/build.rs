@@ -9,7 +9,6 @@ use super::motions::{BoundAction, MotionPlanner};
 use super::needed::holder;
 use super::poses::{PoseCue, PoseLane, TakeClock};
 use super::properties::{PropertyCue, property_value};
-use super::spot::StageSpot;
 use super::thing::PlannedThing;
 use crate::stage::assets::StageAssets;
 use crate::stage::ease::StageEase;
