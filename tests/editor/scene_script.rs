@@ -91,7 +91,6 @@ fn while_the_text_is_broken_the_last_good_scene_stays_and_the_error_is_listed() 
     let scene = read.scene().unwrap();
     assert_eq!(scene.errors.len(), 1);
     assert_eq!(read.scene_editing.lanes(), &before);
-    drop(read);
     let errors = window.query_all_by_label_contains("Error at").count();
     assert_eq!(errors, 1, "the list names it");
     type_text(&mut window, "k");
