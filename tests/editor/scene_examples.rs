@@ -158,7 +158,7 @@ fn feet_of_the_walk_slide_less_than_five_millimeters_while_they_are_on_the_groun
     let times = plan.schedule().times()[action];
     let [begin, end] = [times.begin, times.end].map(StageTime::seconds);
     let mut shown = plan.new_scene();
-    let mut foot_at = |seconds: f64, bone: u32, shown: &mut StageScene| {
+    let foot_at = |seconds: f64, bone: u32, shown: &mut StageScene| {
         plan.scene_at(StageTime::from_seconds(seconds), shown);
         let state = &shown.things[anna];
         let to_root = state.pose.as_ref().expect("a pose").to_root.get(bone as usize);
