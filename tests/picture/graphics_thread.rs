@@ -2,6 +2,7 @@
 //! idle otherwise.
 
 use crate::image_loading::{damaged, plain, sheets};
+use crate::scenes;
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_document::{Document, DocumentReply, FaultInjection, FaultPlan, Source, View};
 use dragonfly_kit::document::arm;
@@ -10,11 +11,14 @@ use dragonfly_kit::eventually;
 use dragonfly_kit::picture::complaints::NoComplaints;
 use dragonfly_kit::skip::{TestNeed, skip};
 use dragonfly_picture::camera::Camera;
+use dragonfly_picture::pick::OwnedRegion;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::scene::Scene;
-use dragonfly_picture::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
+use dragonfly_picture::{
+    DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame, PickedThing,
+};
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use image::RgbaImage;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
@@ -275,6 +279,42 @@ fn a_request_is_answered_and_the_newest_camera_is_used() {
         _ => None,
     });
     assert_eq!(picked, Some((Some(1), 7)));
+}
+
+#[test]
+fn a_click_on_a_scene_is_answered_with_the_thing_and_its_bone() {
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
+    let scene = Some(scenes::view(&scenes::arms()));
+    bench.graphics.show(View { scene, ..View::opened(1, arm::loaded()) });
+    let camera = Camera {
+        target: Vec3::new(-2.0, 1.5, 0.0),
+        distance: 8.0,
+        yaw: 0.0,
+        pitch: 0.0,
+        ..Camera::default()
+    };
+    bench.graphics.set_camera(camera);
+    // The middle of the viewport is the middle of the second bone of the first arm.
+    let middle = [20.0 + 140.0, 10.0 + 90.0];
+    bench.graphics.pick(middle, 7);
+    bench.graphics.pick_all(middle, 8);
+    bench.graphics.catch(OwnedRegion::Box(Vec2::ZERO, Vec2::splat(1000.0)), 9);
+    bench.settle();
+    let thing = |id: &str, bone: Option<u32>| PickedThing { thing: id.into(), bone };
+    let answers: Vec<_> = bench
+        .take()
+        .into_iter()
+        .filter_map(|reply| match reply {
+            GraphicsReply::Picked { bone, thing, ticket } => Some((bone, Vec::from_iter(thing), ticket)),
+            GraphicsReply::PickedAll { bones, things, ticket } => {
+                Some((bones.first().copied(), things, ticket))
+            }
+            _ => None,
+        })
+        .collect();
+    let anna = || thing("anna", Some(1));
+    let both = vec![thing("anna", None), thing("ben", None)];
+    assert_eq!(answers, [(None, vec![anna()], 7), (None, vec![anna()], 8), (None, both, 9)]);
 }
 
 #[test]

@@ -113,6 +113,11 @@ impl Scene {
         self.model.as_ref()
     }
 
+    /// The model, unless the scene of a script is shown in its place.
+    pub fn model_in_view(&self) -> Option<&PosedModel> {
+        self.model.as_ref().filter(|_| self.cast.is_none())
+    }
+
     /// The things of a script at the time prepared last; `None` where a model is shown.
     pub fn cast(&self) -> Option<&PosedScene> {
         self.cast.as_ref()
@@ -129,14 +134,13 @@ impl Scene {
 
     /// Returns what is drawn: the model, or the models of the things of a script.
     pub fn draw_sets(&self) -> impl Iterator<Item = &DrawSet> + Clone {
-        let model = self.model.as_ref().filter(|_| self.cast.is_none()).map(PosedModel::draws);
+        let model = self.model_in_view().map(PosedModel::draws);
         model.into_iter().chain(self.cast.iter().flat_map(PosedScene::draw_sets))
     }
 
     /// The draw calls of blended surfaces, farthest first.
     pub(crate) fn blended_runs(&self) -> impl Iterator<Item = (&DrawSet, &[DrawBatch])> {
-        let model = self.model.as_ref().filter(|_| self.cast.is_none());
-        let of_model = model.map(|model| (model.draws(), model.batches().blended()));
+        let of_model = self.model_in_view().map(|model| (model.draws(), model.batches().blended()));
         of_model.into_iter().chain(self.cast.iter().flat_map(PosedScene::blended_runs))
     }
 
@@ -216,9 +220,9 @@ impl Scene {
         inside.then(|| (self.seen.ray(pixel, size), pixel))
     }
 
-    /// Returns the model and the picker of its skin, which is created when it is first needed; `None` without a model.
+    /// Returns the model and the picker of its skin, which is created when it is first needed; `None` where none is shown.
     pub(crate) fn skin_picker(&mut self) -> Option<(&PosedModel, &mut SkinPicker)> {
-        let model = self.model.as_ref()?;
+        let model = self.model.as_ref().filter(|_| self.cast.is_none())?;
         Some((model, self.skin.get_or_insert_with(|| SkinPicker::new(model))))
     }
 

@@ -27,7 +27,7 @@ fn script(cast: &str, actions: &str) -> String {
 }
 
 /// Returns two arms that bend, one of them mirrored by its direction, and two cameras.
-fn arms() -> String {
+pub(crate) fn arms() -> String {
     script(
         r#"<role id="anna" model="arm" at="-2 0 0"/><role id="ben" model="arm" at="2 0 1" facing="180" scale="0.5"/>
         <camera id="wide" at="0 1.5 9" look="0 1.2 0"/><camera id="close" at="-2 3 4" look="anna" lens="85mm"/>
@@ -38,7 +38,7 @@ fn arms() -> String {
 }
 
 /// Returns the view of a script whose models are all the arm. Models called "lost" are missing.
-fn view(text: &str) -> Arc<SceneView> {
+pub(crate) fn view(text: &str) -> Arc<SceneView> {
     view_of(text, &arm::loaded())
 }
 

@@ -92,8 +92,7 @@ impl Pass for SkeletonPass {
     }
 
     fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
-        let is_shown = around.scene.look.skeleton && around.scene.cast().is_none();
-        let model = around.scene.model().filter(|_| is_shown);
+        let model = around.scene.model_in_view().filter(|_| around.scene.look.skeleton);
         let (Some(resources), Some(model)) = (&mut self.resources, model) else { return };
         for (body, buffer) in Body::ALL.into_iter().zip(&mut resources.instances) {
             let bytes: &[u8] = bytemuck::cast_slice(model.shape().instances(body));
@@ -116,9 +115,9 @@ impl Pass for SkeletonPass {
     }
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
-        let (Some(resources), Some(model)) = (&self.resources, around.scene.model()) else { return };
+        let (Some(resources), Some(model)) = (&self.resources, around.scene.model_in_view()) else { return };
         let look = &around.scene.look;
-        if !look.skeleton || around.scene.cast().is_some() {
+        if !look.skeleton {
             return;
         }
         let size = around.scene.size();

@@ -28,7 +28,7 @@ const REACH: f32 = 10.0;
 /// Bones that are not drawn are picked too: a click on a leg means the bone inside it.
 pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
     let (ray, pixel) = scene.ray(position)?;
-    let shape = scene.model()?.shape();
+    let shape = scene.model_in_view()?.shape();
     hit(shape, &ray).or_else(|| nearest(scene, shape, pixel))
 }
 
@@ -37,7 +37,7 @@ pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
 /// through overlapping bones ([`ClickCycle`]).
 pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
-    let Some(((ray, pixel), model)) = scene.ray(position).zip(scene.model()) else { return };
+    let Some(((ray, pixel), model)) = scene.ray(position).zip(scene.model_in_view()) else { return };
     let mut hits: Vec<(f32, BoneIndex)> = Vec::new();
     for_each_hit(model.shape(), &ray, |distance, bone| hits.push((distance, bone)));
     hits.retain(|hit| !hidden.is_hidden(hit.1));
@@ -51,7 +51,7 @@ pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &m
 /// Returns the bones of [`pick_all`] that the line of sight intersects.
 pub fn pick_met(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
-    let Some(((ray, _), model)) = scene.ray(position).zip(scene.model()) else { return };
+    let Some(((ray, _), model)) = scene.ray(position).zip(scene.model_in_view()) else { return };
     let mut hits: Vec<(f32, BoneIndex)> = Vec::new();
     for_each_hit(model.shape(), &ray, |distance, bone| hits.push((distance, bone)));
     hits.retain(|hit| !hidden.is_hidden(hit.1));
@@ -70,7 +70,7 @@ fn in_order(mut hits: Vec<(f32, BoneIndex)>, out: &mut Vec<BoneIndex>) {
 /// Hidden bones are left out. See [`bones_in_region`] for the meaning of inside.
 pub fn pick_region(scene: &Scene, region: &Region<'_>, hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
-    let Some(model) = scene.model() else { return };
+    let Some(model) = scene.model_in_view() else { return };
     let clip_from_world = scene.clip_from_world(&scene.bounds().sphere);
     let points = scene.size() / scene.look.pixels_per_point;
     let shape = model.shape();
