@@ -5,10 +5,10 @@
 use glam::DVec3;
 
 /// Rounds in which the parameters of the points are moved to the curve.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 24;
 
-/// Part of the tolerance, squared, above which moving the parameters cannot help any more.
-const HOPELESS: f64 = 16.0;
+/// Multiple of the tolerance, squared, above which moving the parameters cannot help any more.
+const HOPELESS: f64 = 400.0;
 
 /// Part of a stroke that is to be fitted.
 struct StrokePart {

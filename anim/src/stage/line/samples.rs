@@ -4,9 +4,9 @@ use super::fit::position;
 use glam::DVec3;
 
 /// Number of straight pieces of a curve.
-const PIECES: usize = 64;
+const PIECES: usize = 128;
 
-/// Points along a line, dense enough to measure it: 64 pieces a curve.
+/// Points along a line, dense enough to measure it: 128 pieces a curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineSamples {
     points: Vec<DVec3>,
