@@ -182,7 +182,7 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         };
         let text = splices.map(|splices| splices.apply(tree.text()));
         let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
-        // What refers to something that is not there is refused with its reason.
+        // A reference to something that does not exist is refused with its reason.
         StageScript::read(text.as_str())
             .map_err(|errors| refused(errors.first().map_or(String::new(), |error| error.text())))?;
         Ok(SceneRequest::Text(ScriptChange {
