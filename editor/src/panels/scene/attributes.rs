@@ -126,7 +126,10 @@ impl SceneAttributes {
                 Some(_) | None => written.unwrap_or_default().to_owned(),
             };
             let width = (ui.available_width() - 2.0 * GRID).max(24.0);
-            let field = TextEdit::singleline(&mut text).hint_text(row.default).desired_width(width);
+            let field = TextEdit::singleline(&mut text)
+                .hint_text(row.default)
+                .align(egui::Align2::LEFT_CENTER)
+                .desired_width(width);
             let response = ui.add(field).accessible_name(row.name);
             let escape = ui.input(|input| input.key_pressed(Key::Escape));
             if response.lost_focus() && is_typed {
