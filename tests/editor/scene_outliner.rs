@@ -99,10 +99,10 @@ fn a_scene_has_its_panels_and_a_model_has_its_own() {
     for label in ["Scene", "Scene timeline", "Script", "History"] {
         assert!(window.query_all_by_label(label).count() > 0, "{label}");
     }
-    for label in ["Skeleton", "Curves", "Takes"] {
+    for label in ["Curves", "Takes", "Layers"] {
         assert_eq!(window.query_all_by_label(label).count(), 0, "{label}");
     }
     let model = crate::workbench::Workbench::full().window();
     assert_eq!(model.query_all_by_label("Scene timeline").count(), 0);
-    assert!(model.query_all_by_label("Skeleton").count() > 0);
+    assert!(model.query_all_by_label("Curves").count() > 0);
 }

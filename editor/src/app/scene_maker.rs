@@ -14,7 +14,7 @@ use std::rc::Rc;
 /// The path of the scene that was written, or the reason why there is none.
 pub(super) type SceneAnswer = Result<PathBuf, String>;
 
-/// Height of a role in a new scene, meters, where its model is far from the size of people.
+/// Height of a role in a new scene, meters, where its model is far from human size.
 const HEIGHT: f32 = 1.7;
 
 /// Starts to write a scene of two roles with a model.
@@ -42,7 +42,7 @@ fn written(path: &Path) -> SceneAnswer {
     Ok(place)
 }
 
-/// Returns the factor that makes a model as high as a person, where it is much larger or smaller.
+/// Returns the factor that makes a model as high as a human, where it is much larger or smaller.
 fn scale_of(loaded: &LoadedModel) -> f64 {
     let height = loaded.bounds.max.y - loaded.bounds.min.y;
     if !(height.is_finite() && height > 0.0) || (0.5..=4.0).contains(&height) {

@@ -24,7 +24,7 @@ pub enum PanelPlace {
     BelowRight,
 }
 
-/// What has to be open for a panel to be shown.
+/// The kind of document for which a panel is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PanelSubject {
     /// A model, or nothing yet.
@@ -57,7 +57,7 @@ pub trait Panel {
     /// Returns its position before the user moves it.
     fn place(&self) -> PanelPlace;
 
-    /// Returns what has to be open for it to be shown.
+    /// Returns the kind of document for which it is shown.
     fn subject(&self) -> PanelSubject {
         PanelSubject::Model
     }

@@ -62,7 +62,7 @@ fn a_clip_moved_in_a_par_gets_a_begin_after_that_of_the_par() {
         changed(PAR, |scene| moved(scene, "a", 3.25)),
         [r#"<play id="a" who="anna" take="Survey" begin="2.25"/>"#]
     );
-    // Where it would begin anyway, nothing is written.
+    // Nothing is written for the time at which it begins anyway.
     let (old, new) = gesture(PAR, |scene| moved(scene, "a", 1.0));
     assert_eq!(new.unwrap(), old);
     // A twenty-fourth of a second is a frame.

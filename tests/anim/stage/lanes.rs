@@ -10,7 +10,7 @@ fn lanes(actions: &str) -> SceneLanes {
 }
 
 /// Returns a line for each lane: its name, and for each bar its label, row, and times in hundredths of a second.
-fn told(lanes: &SceneLanes) -> Vec<String> {
+fn described(lanes: &SceneLanes) -> Vec<String> {
     let cents = |time: dragonfly_anim::stage::time::StageTime| (time.seconds() * 100.0).round();
     let bar = |bar: &dragonfly_anim::stage::lanes::SceneBar| {
         format!(" | {} r{} {}-{}", bar.label, bar.row, cents(bar.begin), cents(bar.end))
@@ -31,7 +31,7 @@ fn every_role_has_a_lane_and_every_action_a_bar_in_it() {
          <turn who=\"anna\" to=\"ben\" begin=\"1\" dur=\"0.5\"/><wait dur=\"4\"/><title text=\"End\" begin=\"2\" dur=\"1\"/></par>",
     );
     assert_eq!(
-        told(&lanes),
+        described(&lanes),
         [
             "Shots | wide r0 0-100 | close r0 100-400",
             "anna | Survey r0 0-200 | Look at ben r1 50-150 | Turn to ben r2 100-150 | Run r0 150-250",
@@ -56,7 +56,7 @@ fn a_bar_has_its_repetitions_and_the_moments_of_its_take() {
     let (_, bar) = lanes.bar_of(1).unwrap();
     let repetitions: Vec<f64> = bar.repetitions(10).map(|time| time.seconds()).collect();
     assert_eq!(repetitions, [0.5, 1.0]);
-    // What refers to the moment begins there: the library's own rule.
+    // An action that refers to the moment begins there: the library's own rule.
     let (_, after) = lanes.bar_of(2).unwrap();
     assert_eq!((&*bar.marks[0].name, bar.marks[0].time), ("x", after.begin));
 }

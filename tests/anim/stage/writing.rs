@@ -32,7 +32,7 @@ fn taken(text: &str) -> String {
 const CAST: &str = "<script version=\"1\"><cast><role id=\"anna\" model=\"a.glb\"/><role id=\"ben\" model=\"a.glb\"/><camera id=\"wide\"/><path id=\"aisle\" points=\"0 0 0 1 0 0\"/></cast>";
 
 #[test]
-fn the_parts_of_a_text_are_told_apart_also_where_it_is_broken() {
+fn the_parts_of_a_text_are_found_also_where_it_is_broken() {
     let kinds = |text: &str| {
         tokens(text).into_iter().map(|token| (token.kind, text[token.range].to_owned())).collect::<Vec<_>>()
     };

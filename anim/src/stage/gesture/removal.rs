@@ -59,7 +59,7 @@ fn user_of(scene: &GestureScene<'_>, element: usize) -> Option<String> {
     Some(format!("<{}> (line {line})", tree.elements()[user].row.name))
 }
 
-/// Inserts a copy of an action after it, with ids of its own. In a `seq` it begins when the original ends; elsewhere its `begin` says so.
+/// Inserts a copy of an action after it, with ids of its own. In a `seq` it begins when the original ends; elsewhere it gets a `begin`.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! What gestures are applied to, and why they are refused.
+//! The script and plan that gestures apply to, and the reasons for refusals.
 
 use crate::stage::schedule::{ActionTimes, Schedule};
 use crate::stage::script::{ScriptElement, StageScript};
@@ -15,10 +15,10 @@ pub struct GestureScene<'a> {
     pub plan: &'a StagePlan,
 }
 
-/// What happens to the actions after one in a `seq`.
+/// The treatment of the actions after one in a `seq`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Followers {
-    /// They move along, as the script says: it changes one line.
+    /// They move along, by the rules of the script: the gesture changes one line.
     Follow,
     /// They stay at their times: the next one gets another `begin`.
     Stay,

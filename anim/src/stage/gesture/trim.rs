@@ -40,7 +40,7 @@ pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Res
         }
         changes.push(trimmed_take(scene, action, by)?);
     } else if own.dur.is_none() && own.end.is_none() && !own.passive && own.children.is_empty() {
-        // What lasts as long as its way would end later.
+        // An action whose duration is that of its way would end later.
         let length = times.end - to;
         if element.row.attribute("dur").is_some() && times.end > times.begin {
             changes.push((own.element, "dur", Some(text(scene, element, "dur", length))));

@@ -20,7 +20,7 @@ pub struct SceneBar {
     pub action: usize,
     /// Name of its element.
     pub kind: &'static str,
-    /// What it plays, shows or does, such as the name of its take.
+    /// Text on the bar: the name of its take, its target, or its action.
     pub label: Box<str>,
     /// Its begin.
     pub begin: StageTime,
@@ -52,7 +52,7 @@ impl SceneBar {
             element.value(name).and_then(|text| parse_time(text, script.rate())).unwrap_or_default()
         };
         let kind = element.row.name;
-        // How long a sound is, its file says.
+        // The length of a sound is that of its file.
         let sound = plan.sounds().iter().find(|sound| sound.action() == action);
         let is_layered = element.value("layer").is_some() || element.value("bones").is_some();
         Self {

@@ -1,4 +1,4 @@
-//! What may be written at the cursor.
+//! Suggestions for the text at the cursor.
 
 use super::cursor::{CursorPlace, OpenTag, place};
 use super::names::{NamedElement, named_elements};
@@ -38,7 +38,7 @@ pub struct CompletionItem {
     pub insert: String,
     /// Bytes from the start of the inserted text to the cursor after it.
     pub cursor: usize,
-    /// What it is for, in one sentence; empty where there is nothing to say.
+    /// Its purpose, in one sentence; may be empty.
     pub help: String,
 }
 

@@ -1,4 +1,4 @@
-//! What is written at the cursor: the name of an element, of an attribute, or a value.
+//! The part of the text at the cursor: the name of an element, of an attribute, or a value.
 
 use super::tokens::{ScriptToken, TokenKind, tokens};
 use crate::stage::table::{ElementRow, element};

@@ -134,7 +134,7 @@ fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)
 
 /// Cancels the drag in progress, whichever panel or tool it belongs to, as if it had never begun.
 fn cancel_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
-    // What someone types is kept.
+    // Typed text is kept.
     if workspace.scene.is_typing(workspace.dragging.open()) {
         if let Some(gesture) = workspace.dragging.release() {
             send(workspace, Change::Release(gesture), pass);

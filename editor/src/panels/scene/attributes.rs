@@ -126,7 +126,10 @@ impl SceneAttributes {
                 Some(_) | None => written.unwrap_or_default().to_owned(),
             };
             let width = (ui.available_width() - 2.0 * GRID).max(24.0);
-            let field = TextEdit::singleline(&mut text).hint_text(row.default).desired_width(width);
+            let field = TextEdit::singleline(&mut text)
+                .hint_text(row.default)
+                .align(egui::Align2::LEFT_CENTER)
+                .desired_width(width);
             let response = ui.add(field).accessible_name(row.name);
             let escape = ui.input(|input| input.key_pressed(Key::Escape));
             if response.lost_focus() && is_typed {
@@ -182,7 +185,7 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         };
         let text = splices.map(|splices| splices.apply(tree.text()));
         let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
-        // What refers to something that is not there is refused with its reason.
+        // A reference to something that does not exist is refused with its reason.
         StageScript::read(text.as_str())
             .map_err(|errors| refused(errors.first().map_or(String::new(), |error| error.text())))?;
         Ok(SceneRequest::Text(ScriptChange {

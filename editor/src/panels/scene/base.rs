@@ -1,4 +1,4 @@
-//! What gestures in a scene begin with.
+//! The script and plan with which gestures in a scene begin.
 
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene};

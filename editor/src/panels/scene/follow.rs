@@ -2,8 +2,8 @@
 
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 
-/// Returns the action of `new` that is `action` of `old`: the one with its id, otherwise one that says the same apart from its times, the
-/// nearest in the text. `None` where it is gone.
+/// Returns the action of `new` that is `action` of `old`: the one with its id, otherwise the nearest one in the text that is
+/// the same apart from its times. `None` where it is gone.
 pub fn follow_action(old: &StageScript, action: usize, new: &StageScript) -> Option<usize> {
     let element = old.actions().get(action).map(|_| old.element(action))?;
     if let Some(id) = element.value("id") {
@@ -24,7 +24,7 @@ pub fn follow_action(old: &StageScript, action: usize, new: &StageScript) -> Opt
     (1..new.actions().len()).filter(|&other| is_same(other)).min_by_key(|other| other.abs_diff(action))
 }
 
-/// Returns whether two elements say the same apart from their times.
+/// Returns whether two elements are the same apart from their times.
 fn is_alike(one: &ScriptElement, other: &ScriptElement) -> bool {
     const TIMES: [&str; 3] = ["begin", "end", "dur"];
     let rest = |element: &ScriptElement| {

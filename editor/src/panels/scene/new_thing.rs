@@ -43,7 +43,7 @@ impl NewThing {
         let named = |name: &str, base: &str| NewElement::new(name).with("id", unique_id(tree, base));
         match self {
             Self::Role(model) => {
-                // Roles stand side by side, not inside of each other.
+                // Next to each other, not inside of each other.
                 let roles = tree.elements().iter().filter(|element| element.row.name == "role").count();
                 named("role", stem(model)).with("model", model.as_str()).with("at", format!("{roles} 0 0"))
             }

@@ -12,7 +12,7 @@ pub struct ScriptChange {
     pub from: Arc<str>,
     /// The new text.
     pub text: String,
-    /// What it does, as the history names it.
+    /// Label of the step in the history.
     pub label: &'static str,
     /// The gesture that it belongs to.
     pub gesture: Option<Gesture>,

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// Returns the script of a scene of two roles that stand opposite each other, with two cameras and a sun. `models` are files relative to the
+/// Returns the script of a scene of two roles opposite each other, with two cameras and a sun. `models` are files relative to the
 /// folder of the script, `scale` is the factor from their lengths to meters, and `take` is what both play.
 pub fn duel_text(models: [&str; 2], scale: f64, take: Option<&str>) -> String {
     let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");

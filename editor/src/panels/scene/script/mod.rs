@@ -39,11 +39,11 @@ pub struct ScriptPanel {
     layout: ScriptLayout,
     word: TypedWord,
     suggestions: SuggestionList,
-    /// Byte of the cursor when it was told last.
+    /// Byte of the cursor in the last request about it.
     told: Option<usize>,
-    /// What was selected elsewhere when the text was scrolled to it last.
+    /// The selected range to which the text was scrolled last.
     followed: Option<Range<usize>>,
-    /// Where the cursor goes in the next frame, bytes.
+    /// Byte to which the cursor moves in the next frame.
     jump: Option<usize>,
 }
 

@@ -25,7 +25,7 @@ pub(super) struct SuggestionList {
     follows: bool,
 }
 
-/// What the keys did to the list.
+/// The effect of the keys on the list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum SuggestionKey {
     /// Nothing.

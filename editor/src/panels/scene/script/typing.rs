@@ -3,7 +3,7 @@
 use dragonfly_anim::stage::splice::TextSplice;
 use dragonfly_document::history::Gesture;
 
-/// Pause after which typing goes on as a new step, seconds.
+/// Pause after which typing continues as a new step, seconds.
 const PAUSE: f64 = 1.0;
 
 /// The word that is being typed.

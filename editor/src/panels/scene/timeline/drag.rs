@@ -198,7 +198,7 @@ impl HeldBar {
         let pointer = egui::pos2(at.x, at.y);
         match result {
             Ok(text) => {
-                readout(ui, pointer, &self.told(edge, context.frame_rate));
+                readout(ui, pointer, &self.amounts(edge, context.frame_rate));
                 self.is_sent = true;
                 let from = std::sync::Arc::clone(self.base.text());
                 let change = ScriptChange { from, text, label, gesture: Some(self.gesture) };
@@ -242,7 +242,7 @@ impl HeldBar {
     }
 
     /// Returns the numbers of the drag.
-    fn told(&self, edge: StageTime, frame_rate: u32) -> String {
+    fn amounts(&self, edge: StageTime, frame_rate: u32) -> String {
         let seconds = edge.seconds();
         let frame = (seconds * f64::from(frame_rate)).round();
         let what = match self.part {

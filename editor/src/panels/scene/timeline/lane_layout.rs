@@ -1,4 +1,4 @@
-//! Where lanes and bars are, and which part of a bar is at a point: pure arithmetic.
+//! Positions of lanes and bars, and the part of a bar at a point: pure arithmetic.
 
 use crate::panels::keys::TimeScale;
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane, SceneLanes};

@@ -11,7 +11,7 @@ mod snap;
 
 use super::super::context::PanelContext;
 use super::super::dope;
-use super::super::keys::{KeysRequest, TimeScale};
+use super::super::keys::{KeysRequest, TimeScale, TimeWindow};
 use super::super::request::Request;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, transport, widgets};
@@ -35,6 +35,8 @@ const MARGIN: f32 = 16.0;
 pub struct SceneTimeline {
     /// Number of points by which the lanes are scrolled up.
     scroll: f32,
+    /// The part of time that is shown during a drag, whatever the scene's length becomes by it.
+    held: Option<TimeWindow>,
     drag: BarDragging,
     scrub: ruler::SceneScrub,
     menu: lane_menu::SceneMenu,
@@ -119,10 +121,18 @@ impl SceneTimeline {
         let names = Rect::from_min_max(pos2(rect.left(), head.bottom()), pos2(left, rect.bottom()));
         let lanes = std::sync::Arc::clone(context.scene_editing.lanes());
         let layout = LaneLayout::of(&lanes);
+        let window = context.scene_editing.window();
+        let window = match self.drag.is_busy() {
+            true => *self.held.get_or_insert(window),
+            false => {
+                self.held = None;
+                window
+            }
+        };
         let scale = TimeScale {
             left: canvas.left() + MARGIN,
             width: (canvas.width() - 2.0 * MARGIN).max(1.0),
-            window: context.scene_editing.window(),
+            window,
         };
         let response = ui.interact(canvas, ui.scope_id().with("lanes"), Sense::click_and_drag());
         let bars: usize = lanes.list.iter().map(|lane| lane.bars.len()).sum();

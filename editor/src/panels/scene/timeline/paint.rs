@@ -29,7 +29,7 @@ pub(super) fn lanes(painter: &Painter, sheet: &SceneSheet<'_>) {
         let x = painter.round_to_pixel_center(sheet.scale.x_of(tick.time));
         painter.vline(x, canvas.y_range(), Stroke::new(1.0, theme.line.gamma_multiply(0.45)));
     }
-    // What lies after the end of the script.
+    // The time after the end of the script.
     if let Some(plan) = &sheet.scene.plan {
         let end = sheet.scale.x_of(plan.length().seconds() as f32).max(canvas.left());
         if end < canvas.right() {
@@ -111,7 +111,7 @@ fn draw_bar(
         let x = sheet.scale.x_of(time.seconds() as f32);
         painter.vline(x, rect.top() + 3.0..=rect.bottom() - 3.0, Stroke::new(1.0, color.gamma_multiply(0.7)));
     }
-    // What has no length of its own has an open end.
+    // An action without a length of its own has an open end.
     let edge =
         Stroke::new(if is_selected { 1.6 } else { 1.0 }, if is_selected { theme.accent } else { color });
     if bar.is_passive && bar.kind != "shot" {
