@@ -29,7 +29,7 @@ fn the_chosen_file_is_opened_and_cancelling_the_dialog_changes_nothing() {
 
     screen.press_with(key::CONTROL, key::O);
     let question = portal.question(SOON);
-    assert_eq!(question.title, "Open a model");
+    assert_eq!(question.title, "Open a model or a scene");
     for option in ["filters", "current_folder"] {
         assert!(question.options.iter().any(|found| found == option), "{option}: {:?}", question.options);
     }

@@ -9,6 +9,7 @@ const DEPENDENCIES: &[(&str, &[&str])] = &[
         &[
             "base64",
             "crc",
+            "draco-core",
             "glam",
             "gltf",
             "libm",

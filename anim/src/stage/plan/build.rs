@@ -6,7 +6,6 @@ use super::cues::{RunCue, ShotCue, SoundCue, TitleCue, run_seed};
 use super::holds::{HoldCue, HoldKind, RigidPlace};
 use super::looks::LookCue;
 use super::motions::{BoundAction, MotionPlanner};
-use super::needed::holder;
 use super::poses::{PoseCue, PoseLane, TakeClock};
 use super::properties::{PropertyCue, property_value};
 use super::thing::PlannedThing;
@@ -259,7 +258,7 @@ pub(super) fn holding_order(things: &[PlannedThing]) -> Result<(Vec<usize>, Vec<
     let mut held: Vec<Vec<usize>> = vec![Vec::new(); things.len()];
     let mut waits_for = vec![0_usize; things.len()];
     for (thing, planned) in things.iter().enumerate() {
-        for holder in planned.holds.iter().filter_map(holder) {
+        for holder in planned.holds.iter().filter_map(HoldCue::holder) {
             held[holder].push(thing);
             waits_for[thing] += 1;
         }

@@ -3,7 +3,7 @@
 use super::StagePlan;
 use super::cameras::camera;
 use super::feet::{RoleSpace, WalkState, keep_feet};
-use super::holds::{HoldKind, RigidPlace, fallen};
+use super::holds::{HoldKind, MOST_FADES, RigidPlace, fallen};
 use super::needed::NeededThings;
 use super::places::MotionKind;
 use super::poses::pose_role;
@@ -17,9 +17,6 @@ use crate::stage::ease::smooth;
 use crate::stage::scene::{PlayingSound, ShownTitle, StageScene, StageScratch, ThingState};
 use crate::stage::time::StageTime;
 use glam::{DVec3, Vec3};
-
-/// Number of attachments that may fade into each other; further ones begin at once.
-pub(super) const MOST_FADES: usize = 4;
 
 /// Writes the scene of `plan` at `time`.
 pub(super) fn evaluate(plan: &StagePlan, time: StageTime, scene: &mut StageScene) {
@@ -49,7 +46,7 @@ pub(super) fn evaluate_one(
     time: StageTime,
     scene: &mut StageScene,
 ) -> RigidPlace {
-    needed.find(plan, thing, time);
+    needed.find(&plan.things, thing, time);
     place_things(plan, time, scene, &needed.by_rank, needed.by_index.iter().copied());
     rigid(&scene.things[thing].transform)
 }

@@ -7,6 +7,9 @@ use glam::{DQuat, DVec3};
 /// Acceleration of what falls, meters per square second.
 const GRAVITY: f64 = 9.81;
 
+/// Number of attachments that may fade into each other; further ones begin at once.
+pub(super) const MOST_FADES: usize = 4;
+
 /// A position and a rotation in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RigidPlace {
@@ -58,6 +61,16 @@ pub(super) struct HoldCue {
     pub(super) action: usize,
     pub(super) begin: StageTime,
     pub(super) kind: HoldKind,
+}
+
+impl HoldCue {
+    /// Returns the thing to which it attaches; `None` where it detaches, or attaches to a point.
+    pub(super) fn holder(&self) -> Option<usize> {
+        match self.kind {
+            HoldKind::Attach { to, .. } => to.thing(),
+            HoldKind::Detach { .. } => None,
+        }
+    }
 }
 
 /// Returns the place of what falls for `after`, from `start` to the ground at height 0; what starts below does not move.

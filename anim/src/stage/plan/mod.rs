@@ -138,7 +138,7 @@ impl StagePlan {
         if all.is_empty() {
             return Ok(());
         }
-        let (mut scene, mut needed, mut computed) = (self.new_scene(), NeededThings::new(self), 0);
+        let (mut scene, mut needed, mut computed) = (self.new_scene(), NeededThings::new(&self.order), 0);
         for (begin, _, thing, at) in all {
             let place = evaluate::evaluate_one(self, &mut needed, thing, begin, &mut scene);
             computed += needed.by_rank.len();

@@ -1,15 +1,13 @@
 //! The things on which the place of one thing depends at a time: what holds it, what those look at, and so on.
 
-use super::StagePlan;
-use super::evaluate::MOST_FADES;
-use super::holds::{HoldCue, HoldKind};
-use super::spot::StageSpot;
+use super::holds::{HoldCue, MOST_FADES};
+use super::thing::PlannedThing;
 use crate::stage::time::StageTime;
 
 /// A set of things that contains everything on which its members depend at one time. The memory is used again for the next time.
 #[derive(Debug)]
 pub(super) struct NeededThings {
-    /// Place of each thing among [`StagePlan::order`].
+    /// Place of each thing in the order in which those that hold others come first.
     ranks: Vec<usize>,
     /// Number of the last call in which each thing was found.
     found_in: Vec<u32>,
@@ -21,28 +19,29 @@ pub(super) struct NeededThings {
 }
 
 impl NeededThings {
-    pub(super) fn new(plan: &StagePlan) -> Self {
-        let mut ranks = vec![0; plan.things.len()];
-        for (rank, &thing) in plan.order.iter().enumerate() {
+    /// Creates an empty set for things of which those that hold others come first in `order`.
+    pub(super) fn new(order: &[usize]) -> Self {
+        let mut ranks = vec![0; order.len()];
+        for (rank, &thing) in order.iter().enumerate() {
             ranks[thing] = rank;
         }
-        let found_in = vec![0; plan.things.len()];
+        let found_in = vec![0; order.len()];
         Self { ranks, found_in, call: 0, by_rank: Vec::new(), by_index: Vec::new() }
     }
 
     /// Finds what the place of `thing` needs at `time`, `thing` included.
-    pub(super) fn find(&mut self, plan: &StagePlan, thing: usize, time: StageTime) {
+    pub(super) fn find(&mut self, things: &[PlannedThing], thing: usize, time: StageTime) {
         self.call += 1;
         self.by_rank.clear();
         self.add(thing);
         let mut done = 0;
         while let Some(&next) = self.by_rank.get(done) {
             done += 1;
-            let planned = &plan.things[next];
+            let planned = &things[next];
             let begun = planned.holds.partition_point(|hold| hold.begin <= time);
             // Attachments fade into at most so many others.
             let latest = planned.holds[..begun].iter().rev().take(MOST_FADES + 1);
-            for holder in latest.filter_map(holder) {
+            for holder in latest.filter_map(HoldCue::holder) {
                 self.add(holder);
             }
             let begun = planned.looks.partition_point(|look| look.span.begin <= time);
@@ -61,13 +60,5 @@ impl NeededThings {
         if std::mem::replace(&mut self.found_in[thing], self.call) != self.call {
             self.by_rank.push(thing);
         }
-    }
-}
-
-/// Returns the thing to which `hold` attaches.
-pub(super) fn holder(hold: &HoldCue) -> Option<usize> {
-    match hold.kind {
-        HoldKind::Attach { to, .. } => StageSpot::thing(to),
-        HoldKind::Detach { .. } => None,
     }
 }
