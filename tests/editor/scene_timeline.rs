@@ -6,7 +6,7 @@ use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::TimeScale;
 use dragonfly::panels::scene::SceneRequest;
-use dragonfly::panels::scene::timeline::{BarPart, LaneLayout, SceneHit};
+use dragonfly::panels::scene::timeline::{SceneBarPart, SceneLaneLayout, SceneHit};
 use dragonfly_document::Change;
 use egui::{Key, Modifiers, Pos2, Rect, pos2};
 use egui_kittest::kittest::Queryable;
@@ -14,7 +14,7 @@ use egui_kittest::kittest::Queryable;
 /// The lanes of a window: the rectangle, the places in it, and the position of each time.
 struct Lanes {
     canvas: Rect,
-    layout: LaneLayout,
+    layout: SceneLaneLayout,
     scale: TimeScale,
 }
 
@@ -37,7 +37,7 @@ impl Lanes {
             width: canvas.width() - 32.0,
             window: context.scene_editing.window(),
         };
-        Self { canvas, layout: LaneLayout::of(context.scene_editing.lanes()), scale }
+        Self { canvas, layout: SceneLaneLayout::of(context.scene_editing.lanes()), scale }
     }
 
     /// Returns the rectangle of the bar of an action.
@@ -149,12 +149,12 @@ fn every_part_of_a_bar_is_where_it_is_drawn() {
         SceneHit::Bar { .. } | SceneHit::Lane(_) | SceneHit::Nothing => None,
     };
     let middle = bar.center();
-    assert_eq!(part(at(middle.x, middle.y + 4.0)), Some(BarPart::Body));
-    assert_eq!(part(at(bar.left() + 2.0, bar.bottom() - 2.0)), Some(BarPart::Start));
-    assert_eq!(part(at(bar.right() - 2.0, bar.bottom() - 2.0)), Some(BarPart::End));
+    assert_eq!(part(at(middle.x, middle.y + 4.0)), Some(SceneBarPart::Body));
+    assert_eq!(part(at(bar.left() + 2.0, bar.bottom() - 2.0)), Some(SceneBarPart::Start));
+    assert_eq!(part(at(bar.right() - 2.0, bar.bottom() - 2.0)), Some(SceneBarPart::End));
     let fade = (0.5 * lanes.scale.per_second()) as f32;
-    assert_eq!(part(at(bar.left() + fade, bar.top() + 2.0)), Some(BarPart::FadeIn));
-    assert_eq!(part(at(bar.right(), bar.top() + 2.0)), Some(BarPart::FadeOut));
+    assert_eq!(part(at(bar.left() + fade, bar.top() + 2.0)), Some(SceneBarPart::FadeIn));
+    assert_eq!(part(at(bar.right(), bar.top() + 2.0)), Some(SceneBarPart::FadeOut));
     assert!(matches!(at(bar.right() + 12.0, middle.y), SceneHit::Lane(_)));
     assert_eq!(at(middle.x, lanes.canvas.top() + lanes.layout.height() + 5.0), SceneHit::Nothing);
 }

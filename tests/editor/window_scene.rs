@@ -6,7 +6,7 @@ use crate::screen::key;
 use crate::window::{SOON, alone};
 use crate::window_visit::Visit;
 use dragonfly::panels::keys::TimeScale;
-use dragonfly::panels::scene::timeline::LaneLayout;
+use dragonfly::panels::scene::timeline::SceneLaneLayout;
 use egui::{Rect, pos2, vec2};
 
 /// Returns the rectangle of a control.
@@ -27,7 +27,7 @@ fn a_scene_is_dragged_typed_cut_undone_redone_saved_and_opened_with_the_same_byt
     let bench = scene(FOXES);
     let read = bench.state.read();
     let lanes = read.scene_editing.lanes();
-    let layout = LaneLayout::of(lanes);
+    let layout = SceneLaneLayout::of(lanes);
     let scale = TimeScale {
         left: canvas.left() + 16.0,
         width: canvas.width() - 32.0,

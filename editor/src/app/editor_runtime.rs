@@ -8,7 +8,7 @@ use super::interface::Interface;
 use super::options::Options;
 use super::reference_loader::{ReferenceAnswer, ReferenceAnswers};
 use super::replies::{Answers, Replies};
-use super::scene_maker::{self, SceneAnswer, SceneAnswers};
+use super::scene_maker::{self, SceneAnswer, SceneMakerReceiver};
 use super::sound_loader::{SoundAnswer, SoundAnswers};
 use super::state_trace;
 use crate::panels::status::MessageSeverity;
@@ -209,7 +209,7 @@ impl BaseRuntime for EditorRuntime {
         let sounds = main.handle().reserve_address();
         let scenes = main.handle().reserve_address();
         let opens = Rc::clone(&parts.interface);
-        main.register_restartable_receiver_at(&scenes, move |_| SceneAnswers(Rc::clone(&opens)));
+        main.register_restartable_receiver_at(&scenes, move |_| SceneMakerReceiver(Rc::clone(&opens)));
         main.register_restartable_receiver_at(&sounds, move |_| SoundAnswers(Rc::clone(&draws)));
         main.register_restartable_receiver_at(&references, move |_| ReferenceAnswers(Rc::clone(&shows)));
         let setup = self.setup();

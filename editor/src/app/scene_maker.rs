@@ -55,9 +55,9 @@ fn scale_of(loaded: &LoadedModel) -> f64 {
 }
 
 /// Opens the scene that a job has written.
-pub(super) struct SceneAnswers(pub Rc<RefCell<Interface>>);
+pub(super) struct SceneMakerReceiver(pub Rc<RefCell<Interface>>);
 
-impl Receiver for SceneAnswers {
+impl Receiver for SceneMakerReceiver {
     type Message = SceneAnswer;
 
     fn receive(&mut self, answer: SceneAnswer, _main: &mut Context) {

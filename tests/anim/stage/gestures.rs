@@ -4,7 +4,7 @@ use super::actors::{assets, at, bits, fox, fox_script, planned};
 use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    ClipOrder, FadeEnd, Followers, GestureRefusal, GestureScene, add_clip, attach_thing, cut_to, delete_clip,
+    SequenceOrder, FadeEnd, Followers, GestureRefusal, GestureScene, add_clip, attach_thing, cut_to, delete_clip,
     duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed, trim_end,
     trim_start,
 };
@@ -49,7 +49,7 @@ fn called(scene: &GestureScene<'_>, id: &str) -> usize {
 }
 
 fn moved(scene: &GestureScene<'_>, id: &str, to: f64) -> Result<String, GestureRefusal> {
-    move_clip(scene, called(scene, id), seconds(to), ClipOrder::Keep, Followers::Follow)
+    move_clip(scene, called(scene, id), seconds(to), SequenceOrder::Keep, Followers::Follow)
 }
 
 const PAR: &str = "<par id=\"all\" begin=\"1\">\n  <!-- looks -->\n  <play id=\"a\" who=\"anna\" take=\"Survey\"/>\n  <play id=\"b\" who=\"ben\" take=\"Walk\" begin=\"a.end-12f\"/>\n</par>";
@@ -75,12 +75,12 @@ fn a_clip_that_begins_with_another_keeps_that_reference_and_its_unit() {
     let begin = |scene: &GestureScene<'_>| scene.plan.schedule().times()[called(scene, "b")].begin;
     let line = changed(PAR, |scene| {
         let to = begin(scene) + seconds(0.25);
-        move_clip(scene, called(scene, "b"), to, ClipOrder::Change, Followers::Follow)
+        move_clip(scene, called(scene, "b"), to, SequenceOrder::Change, Followers::Follow)
     });
     assert_eq!(line, [r#"<play id="b" who="ben" take="Walk" begin="a.end-6f"/>"#]);
     let line = changed(PAR, |scene| {
         let to = begin(scene) + seconds(0.5);
-        move_clip(scene, called(scene, "b"), to, ClipOrder::Change, Followers::Follow)
+        move_clip(scene, called(scene, "b"), to, SequenceOrder::Change, Followers::Follow)
     });
     assert_eq!(line, [r#"<play id="b" who="ben" take="Walk" begin="a.end"/>"#]);
 }
@@ -89,7 +89,7 @@ fn a_clip_that_begins_with_another_keeps_that_reference_and_its_unit() {
 fn what_follows_in_a_seq_moves_along_or_stays() {
     let begin = |scene: &GestureScene<'_>| scene.plan.schedule().times()[called(scene, "b")].begin;
     let by = |scene: &GestureScene<'_>, followers| {
-        move_clip(scene, called(scene, "b"), begin(scene) + seconds(0.25), ClipOrder::Keep, followers)
+        move_clip(scene, called(scene, "b"), begin(scene) + seconds(0.25), SequenceOrder::Keep, followers)
     };
     let follow = changed(SEQ, |scene| by(scene, Followers::Follow));
     assert_eq!(follow, [r#"<play id="b" who="anna" take="Survey" fade-in="6f" begin="0.25"/>"#]);
@@ -103,7 +103,7 @@ fn a_clip_whose_middle_passes_that_of_its_neighbor_changes_places_with_it() {
     let text = |to: f64, id: &str| {
         let (_, new) = gesture(SEQ, |scene| {
             let to = scene.plan.schedule().times()[called(scene, id)].begin + seconds(to);
-            move_clip(scene, called(scene, id), to, ClipOrder::Change, Followers::Follow)
+            move_clip(scene, called(scene, id), to, SequenceOrder::Change, Followers::Follow)
         });
         let new = new.unwrap();
         let place = |id: &str| new.find(&format!("id=\"{id}\"")).unwrap();
@@ -344,7 +344,7 @@ fn random_gesture(
     let action = 1 + random.below(scene.script.actions().len() - 1);
     let time = seconds(random.below(200) as f64 / 24.0);
     let followers = random.choice(&[Followers::Follow, Followers::Stay]);
-    let order = random.choice(&[ClipOrder::Keep, ClipOrder::Change]);
+    let order = random.choice(&[SequenceOrder::Keep, SequenceOrder::Change]);
     match random.below(12) {
         0..=2 => ("move", move_clip(scene, action, time, order, followers)),
         3 => ("start", trim_start(scene, action, time)),

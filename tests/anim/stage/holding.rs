@@ -1,4 +1,4 @@
-//! Things that hold and are held: the place where one is let go, and limits.
+//! Things that hold and are held: the place where one is detached, and limits.
 
 use super::actors::{assets, at, fox, foxes, planned, seconds, thing};
 use super::{listed, read};
@@ -20,7 +20,7 @@ fn with_marks(count: usize, actions: &str) -> String {
 }
 
 #[test]
-fn what_is_let_go_lies_exactly_where_it_was_held_also_by_a_head_that_follows_another_head() {
+fn what_is_detached_lies_exactly_where_it_was_held_also_by_a_head_that_follows_another_head() {
     let head = fox().skeleton().bones.iter().find(|bone| bone.name.contains("Head")).unwrap().name.clone();
     let holding = format!(
         "<play who=\"anna\" take=\"Run\" repeat=\"fill\"/><move who=\"ben\" path=\"bend\" take=\"Walk\"/>\
@@ -30,15 +30,15 @@ fn what_is_let_go_lies_exactly_where_it_was_held_also_by_a_head_that_follows_ano
     for tenths in 1..20 {
         let time = f64::from(tenths) * 0.1;
         let held = foxes(&holding);
-        let let_go = foxes(&format!("{holding}<detach who=\"sword\" begin=\"{time}\"/>"));
+        let detached = foxes(&format!("{holding}<detach who=\"sword\" begin=\"{time}\"/>"));
         let place = |plan: &StagePlan| thing(plan, &at(plan, time), "sword").transform;
-        assert_eq!(place(&held).translation.to_array(), place(&let_go).translation.to_array(), "{time}");
-        assert_eq!(place(&held).rotation.to_array(), place(&let_go).rotation.to_array(), "{time}");
+        assert_eq!(place(&held).translation.to_array(), place(&detached).translation.to_array(), "{time}");
+        assert_eq!(place(&held).rotation.to_array(), place(&detached).rotation.to_array(), "{time}");
     }
 }
 
 #[test]
-fn a_plan_takes_a_time_in_proportion_to_what_is_let_go() {
+fn a_plan_takes_a_time_in_proportion_to_what_is_detached() {
     const MANY: usize = 20_000;
     let mut actions = String::new();
     for thing in 1..MANY {
@@ -77,7 +77,7 @@ fn chains_of_too_many_holders_and_loops_are_errors() {
 }
 
 #[test]
-fn what_needs_too_much_to_find_where_it_is_let_go_is_an_error() {
+fn what_needs_too_much_to_find_where_it_is_detached_is_an_error() {
     // Each of many things is held by the last one of a chain, which is long.
     let mut actions: String =
         (1..60).map(|thing| format!("<attach who=\"p{}\" to=\"p{thing}\"/>\n", thing - 1)).collect();

@@ -15,7 +15,7 @@ const HALF: &str = r#"<script version="1"><cast>
 <play id="part" who="knight" take="Bow" from="0.5" to="2" speed="2"/>
 <move id="walk" who="knight" to="2 0 7" take="Walk"/>
 <look who="knight" at="fox" begin="bow.low"/>
-<play who="knight" take="Wave" layer="arm" bones="Arm" begin="0"/>
+<play who="knight" take="Wave" layer="arm" bones="Arm" begin="bow.begin"/>
 </seq>
 <attach who="sword" to="knight.Hand" begin="bow.low"/>
 <play id="runs" who="fox" take="Run"/>

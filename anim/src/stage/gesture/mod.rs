@@ -32,7 +32,7 @@ mod trim;
 
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
 pub use insert::{add_clip, attach_thing, cut_to};
-pub use moving::{ClipOrder, move_clip};
+pub use moving::{SequenceOrder, move_clip};
 pub use places::{face_thing, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene};

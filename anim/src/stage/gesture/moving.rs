@@ -8,7 +8,7 @@ use crate::stage::time::StageTime;
 
 /// Whether a moved clip may change places with its neighbors in a `seq`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ClipOrder {
+pub enum SequenceOrder {
     /// It goes before or after those whose middle its own middle passes, and begins where the one before ends.
     Change,
     /// It stays in its place of the text, with an earlier or later `begin`.
@@ -24,7 +24,7 @@ pub fn move_clip(
     scene: &GestureScene<'_>,
     action: usize,
     to: StageTime,
-    order: ClipOrder,
+    order: SequenceOrder,
     followers: Followers,
 ) -> Result<String, GestureRefusal> {
     let element = scene.script.actions().get(action).map_or(0, |own| own.element);
@@ -32,7 +32,7 @@ pub fn move_clip(
     let times = scene.times(action);
     let draft = ScriptDraft::of(scene.script.tree());
     // Also for a time before the start, which brings a long clip before a short one.
-    if order == ClipOrder::Change
+    if order == SequenceOrder::Change
         && is_usual(scene, action)
         && let Some(place) = new_place(scene, action, to)
     {

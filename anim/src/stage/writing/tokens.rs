@@ -32,7 +32,7 @@ pub struct ScriptToken {
 ///
 /// A quote that is not closed ends at the end of its line, so that one does not color the rest of the text.
 pub fn tokens(text: &str) -> Vec<ScriptToken> {
-    let mut lexer = Lexer { bytes: text.as_bytes(), at: 0, found: Vec::with_capacity(text.len() / 8) };
+    let mut lexer = ScriptLexer { bytes: text.as_bytes(), at: 0, found: Vec::with_capacity(text.len() / 8) };
     while let Some(open) = lexer.find(lexer.at, b'<') {
         lexer.at = open;
         lexer.markup();
@@ -40,13 +40,13 @@ pub fn tokens(text: &str) -> Vec<ScriptToken> {
     lexer.found
 }
 
-struct Lexer<'a> {
+struct ScriptLexer<'a> {
     bytes: &'a [u8],
     at: usize,
     found: Vec<ScriptToken>,
 }
 
-impl Lexer<'_> {
+impl ScriptLexer<'_> {
     fn find(&self, from: usize, byte: u8) -> Option<usize> {
         let rest = self.bytes.get(from..)?;
         rest.iter().position(|&other| other == byte).map(|at| from + at)
