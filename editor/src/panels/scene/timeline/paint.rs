@@ -1,9 +1,10 @@
 //! Lanes, bars, cross-fades, the playhead.
 
-use super::SceneSheet;
 use super::lane_layout::{SceneHit, fade_handles};
+use super::sheet::SceneSheet;
 use crate::panels::theme::Theme;
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane};
+use dragonfly_picture::between;
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
 /// Most lines for repetitions that are drawn in a bar.
@@ -138,7 +139,7 @@ fn draw_bar(
     }
     if is_hovered || is_selected {
         for (_, x) in fade_handles(bar, rect, sheet.scale).into_iter().flatten() {
-            let x = x.clamp(rect.left() + 3.0, rect.right() - 3.0);
+            let x = between(x, rect.left() + 3.0, rect.right() - 3.0);
             painter.circle_filled(pos2(x, rect.top() + 3.0), 2.6, theme.text);
         }
     }
