@@ -1,7 +1,7 @@
 //! The entries of the context menu of a bar.
 
-use super::SceneSheet;
-use super::lane_menu::gesture;
+use super::menu_entry::gesture;
+use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;

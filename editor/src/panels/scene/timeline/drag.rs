@@ -1,7 +1,7 @@
 //! Drags of bars: moved, trimmed, faded, stretched.
 
-use super::SceneSheet;
 use super::lane_layout::{BarPart, SceneHit};
+use super::sheet::SceneSheet;
 use super::snap::{frame_at, snapped_time};
 use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, readout};
 use crate::panels::request::Request;

@@ -1,6 +1,6 @@
 //! The names of the lanes, and the switches above them.
 
-use super::SceneSheet;
+use super::sheet::SceneSheet;
 use crate::panels::command_button::command_button;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;

@@ -1,14 +1,15 @@
 //! The context menu of the lanes: of a bar, or of the lane under the pointer.
 
-use super::SceneSheet;
 use super::bar_menu;
 use super::drag::BarDragging;
 use super::lane_layout::SceneHit;
+use super::menu_entry::gesture;
+use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
-use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene, add_clip, attach_thing, cut_to};
+use crate::panels::scene::SceneRequest;
+use dragonfly_anim::stage::gesture::{add_clip, attach_thing, cut_to};
 use dragonfly_anim::stage::lanes::SceneLane;
 use egui::{Button, Response, Ui};
 
@@ -46,30 +47,6 @@ impl SceneMenu {
             Some(SceneHit::Nothing) | None => general(ui, sheet, requests),
         });
     }
-}
-
-/// Draws an entry that changes the script.
-pub(super) fn gesture(
-    ui: &mut Ui,
-    title: &str,
-    label: &'static str,
-    sheet: &SceneSheet<'_>,
-    requests: &mut Vec<Request>,
-    act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
-) {
-    if !ui.add(Button::new(title).frame_when_inactive(false)).clicked() {
-        return;
-    }
-    let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene));
-    let done = base.and_then(|base| {
-        let text = act(&base.scene())?;
-        Ok(ScriptChange { from: std::sync::Arc::clone(base.text()), text, label, gesture: None })
-    });
-    requests.push(Request::Scene(match done {
-        Ok(change) => SceneRequest::Text(change),
-        Err(refusal) => SceneRequest::Refused(refusal.to_string()),
-    }));
-    ui.close();
 }
 
 fn lane_entries(ui: &mut Ui, lane: &SceneLane, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {

@@ -5,8 +5,10 @@ mod drag;
 mod gutter;
 mod lane_layout;
 mod lane_menu;
+mod menu_entry;
 mod paint;
 mod ruler;
+mod sheet;
 mod snap;
 
 use super::super::context::PanelContext;
@@ -18,11 +20,11 @@ use super::super::{Panel, PanelPlace, transport, widgets};
 use super::SceneRequest;
 use crate::panels::panel::PanelSubject;
 use drag::BarDragging;
-use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_document::SceneView;
 use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 pub use lane_layout::{BarPart, LaneLayout, SceneHit};
+use sheet::SceneSheet;
 pub use snap::snapped_time;
 
 /// Width of the names of the lanes.
@@ -40,25 +42,6 @@ pub struct SceneTimeline {
     drag: BarDragging,
     scrub: ruler::SceneScrub,
     menu: lane_menu::SceneMenu,
-}
-
-/// The timeline in one frame, as its parts read it.
-#[derive(Clone, Copy)]
-struct SceneSheet<'a> {
-    scene: &'a SceneView,
-    lanes: &'a SceneLanes,
-    layout: &'a LaneLayout,
-    scale: &'a TimeScale,
-    context: &'a PanelContext<'a>,
-    theme: &'a Theme,
-    /// The lanes.
-    canvas: Rect,
-    /// The ruler.
-    head: Rect,
-    /// The names of the lanes.
-    names: Rect,
-    /// Number of points by which the lanes are scrolled up.
-    scroll: f32,
 }
 
 impl Panel for SceneTimeline {

@@ -1,7 +1,7 @@
 //! Lanes, bars, cross-fades, the playhead.
 
-use super::SceneSheet;
 use super::lane_layout::{SceneHit, fade_handles};
+use super::sheet::SceneSheet;
 use crate::panels::theme::Theme;
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane};
 use dragonfly_picture::between;

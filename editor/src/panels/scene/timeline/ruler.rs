@@ -1,6 +1,6 @@
 //! The ruler of a scene: frames or seconds, and the drag of the playhead.
 
-use super::SceneSheet;
+use super::sheet::SceneSheet;
 use super::snap::{frame_at, snapped_time};
 use crate::panels::commands::Id;
 use crate::panels::dope;
