@@ -134,7 +134,7 @@ fn models_outside_of_the_folder_of_the_script_are_refused() {
     let binary = folder.join("binary.xml");
     fs::write(&binary, b"<script>\n\xff\xfe</script>").expect("a file");
     let refused = run(["check", text(&binary)]).expect(2);
-    assert!(refused.errors().contains("2:1: this is not UTF-8"), "{}", refused.errors());
+    assert!(refused.stderr.contains("2:1: this is not UTF-8"), "{}", refused.stderr);
 }
 
 #[test]

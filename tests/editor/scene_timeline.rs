@@ -6,7 +6,7 @@ use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::TimeScale;
 use dragonfly::panels::scene::SceneRequest;
-use dragonfly::panels::scene::timeline::{SceneBarPart, SceneLaneLayout, SceneHit};
+use dragonfly::panels::scene::timeline::{SceneBarPart, SceneHit, SceneLaneLayout};
 use dragonfly_document::Change;
 use egui::{Key, Modifiers, Pos2, Rect, pos2};
 use egui_kittest::kittest::Queryable;

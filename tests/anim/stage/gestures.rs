@@ -4,9 +4,9 @@ use super::actors::{assets, at, bits, fox, fox_script, planned};
 use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    SequenceOrder, FadeEnd, Followers, GestureRefusal, GestureScene, add_clip, attach_thing, cut_to, delete_clip,
-    duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed, trim_end,
-    trim_start,
+    FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, attach_thing, cut_to,
+    delete_clip, duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed,
+    trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::script::{StageRepeat, StageScript};

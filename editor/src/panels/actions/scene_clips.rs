@@ -6,7 +6,7 @@ use crate::panels::scene::SceneBase;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
-    ClipOrder, Followers, GestureRefusal, cut_to, delete_clip, duplicate_clip, move_clip, trim_end,
+    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clip, duplicate_clip, move_clip, trim_end,
     trim_start,
 };
 use dragonfly_anim::stage::script::{ScriptTree, StageScript};
@@ -36,7 +36,9 @@ fn unlocked_action(workspace: &mut Workspace) -> Option<usize> {
 pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at, followers) =
         (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, "Move clip", |base| move_clip(&base.scene(), action, at, ClipOrder::Keep, followers))
+    gesture(workspace, "Move clip", |base| {
+        move_clip(&base.scene(), action, at, SequenceOrder::Keep, followers)
+    })
 }
 
 /// Moves the selected action by frames.
@@ -49,7 +51,7 @@ pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option
         let at_frame = rate.frame(frame) == begin;
         // An action between two frames goes to one of them first.
         let to = if at_frame { rate.frame(frame + frames) } else { rate.frame(frame) };
-        move_clip(&base.scene(), action, to, ClipOrder::Keep, followers)
+        move_clip(&base.scene(), action, to, SequenceOrder::Keep, followers)
     })
 }
 

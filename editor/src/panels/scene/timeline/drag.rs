@@ -1,13 +1,13 @@
 //! Drags of bars: moved, trimmed, faded, stretched.
 
-use super::lane_layout::{BarPart, SceneHit};
+use super::lane_layout::{SceneBarPart, SceneHit};
 use super::sheet::SceneSheet;
 use super::snap::{frame_at, snapped_time};
 use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, readout};
 use crate::panels::request::Request;
 use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
 use dragonfly_anim::stage::gesture::{
-    ClipOrder, FadeEnd, Followers, GestureRefusal, move_clip, set_fade, set_speed, trim_end, trim_start,
+    FadeEnd, Followers, GestureRefusal, SequenceOrder, move_clip, set_fade, set_speed, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::time::StageTime;
@@ -30,7 +30,7 @@ struct HeldBar {
     base: SceneBase,
     gesture: Gesture,
     bar: SceneBar,
-    part: BarPart,
+    part: SceneBarPart,
     /// Time of the pointer when it was pressed.
     grabbed: StageTime,
     /// Name of the thing.
@@ -110,10 +110,10 @@ impl BarDragging {
             (None, Some(SceneHit::Lane(_) | SceneHit::Nothing) | None) => return,
         };
         ui.ctx().set_cursor_icon(match part {
-            BarPart::Body if self.drag.drag().is_some() => CursorIcon::Grabbing,
-            BarPart::Body => CursorIcon::Grab,
-            BarPart::Start | BarPart::End => CursorIcon::ResizeHorizontal,
-            BarPart::FadeIn | BarPart::FadeOut => CursorIcon::ResizeColumn,
+            SceneBarPart::Body if self.drag.drag().is_some() => CursorIcon::Grabbing,
+            SceneBarPart::Body => CursorIcon::Grab,
+            SceneBarPart::Start | SceneBarPart::End => CursorIcon::ResizeHorizontal,
+            SceneBarPart::FadeIn | SceneBarPart::FadeOut => CursorIcon::ResizeColumn,
         });
     }
 }
@@ -175,10 +175,10 @@ impl HeldBar {
         let pointer = StageTime::from_seconds(f64::from(sheet.scale.time_at(at.x)));
         let by = pointer - self.grabbed;
         let edge = match self.part {
-            BarPart::Body | BarPart::Start => self.bar.begin + by,
-            BarPart::End => self.bar.end + by,
-            BarPart::FadeIn => self.bar.begin + self.bar.fade_in + by,
-            BarPart::FadeOut => self.bar.end - self.bar.fade_out + by,
+            SceneBarPart::Body | SceneBarPart::Start => self.bar.begin + by,
+            SceneBarPart::End => self.bar.end + by,
+            SceneBarPart::FadeIn => self.bar.begin + self.bar.fade_in + by,
+            SceneBarPart::FadeOut => self.bar.end - self.bar.fade_out + by,
         };
         let rate = self.base.script.rate();
         let reach = StageTime::from_seconds(f64::from(sheet.scale.seconds(6.0)));
@@ -217,15 +217,19 @@ impl HeldBar {
     ) -> (&'static str, Result<String, GestureRefusal>) {
         let (scene, action) = (self.base.scene(), self.bar.action);
         match self.part {
-            BarPart::Body => {
-                let order = if alt { ClipOrder::Keep } else { ClipOrder::Change };
+            SceneBarPart::Body => {
+                let order = if alt { SequenceOrder::Keep } else { SequenceOrder::Change };
                 ("Move clip", move_clip(&scene, action, edge, order, followers))
             }
-            BarPart::Start => ("Trim start", trim_start(&scene, action, edge)),
-            BarPart::End if alt => ("Change speed", set_speed(&scene, action, self.speed_to(edge))),
-            BarPart::End => ("Trim end", trim_end(&scene, action, edge, followers)),
-            BarPart::FadeIn => ("Change fade", set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin)),
-            BarPart::FadeOut => ("Change fade", set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge)),
+            SceneBarPart::Start => ("Trim start", trim_start(&scene, action, edge)),
+            SceneBarPart::End if alt => ("Change speed", set_speed(&scene, action, self.speed_to(edge))),
+            SceneBarPart::End => ("Trim end", trim_end(&scene, action, edge, followers)),
+            SceneBarPart::FadeIn => {
+                ("Change fade", set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin))
+            }
+            SceneBarPart::FadeOut => {
+                ("Change fade", set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge))
+            }
         }
     }
 
@@ -246,19 +250,23 @@ impl HeldBar {
         let seconds = edge.seconds();
         let frame = (seconds * f64::from(frame_rate)).round();
         let what = match self.part {
-            BarPart::Body => format!(
+            SceneBarPart::Body => format!(
                 "begins at {seconds:.3} s, frame {frame}, {:+.3} s",
                 (edge - self.bar.begin).seconds()
             ),
-            BarPart::Start => format!("starts at {seconds:.3} s, frame {frame}"),
-            BarPart::End => {
+            SceneBarPart::Start => format!("starts at {seconds:.3} s, frame {frame}"),
+            SceneBarPart::End => {
                 format!(
                     "ends at {seconds:.3} s, frame {frame}, lasts {:.3} s",
                     (edge - self.bar.begin).seconds()
                 )
             }
-            BarPart::FadeIn => format!("fades in for {:.3} s", (edge - self.bar.begin).seconds().max(0.0)),
-            BarPart::FadeOut => format!("fades out for {:.3} s", (self.bar.end - edge).seconds().max(0.0)),
+            SceneBarPart::FadeIn => {
+                format!("fades in for {:.3} s", (edge - self.bar.begin).seconds().max(0.0))
+            }
+            SceneBarPart::FadeOut => {
+                format!("fades out for {:.3} s", (self.bar.end - edge).seconds().max(0.0))
+            }
         };
         format!("{} · {}: {what}", self.name, self.bar.label)
     }

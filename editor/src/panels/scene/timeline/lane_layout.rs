@@ -20,7 +20,7 @@ const INSTANT: f32 = 6.0;
 
 /// A part of a bar that is dragged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BarPart {
+pub enum SceneBarPart {
     /// The whole bar.
     Body,
     /// Its start.
@@ -43,7 +43,7 @@ pub enum SceneHit {
         /// The action.
         action: usize,
         /// The part.
-        part: BarPart,
+        part: SceneBarPart,
     },
     /// A lane, beside its bars.
     Lane(usize),
@@ -53,11 +53,11 @@ pub enum SceneHit {
 
 /// The tops of the lanes, from the top of the first one.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct LaneLayout {
+pub struct SceneLaneLayout {
     tops: Vec<f32>,
 }
 
-impl LaneLayout {
+impl SceneLaneLayout {
     /// Computes the tops of lanes.
     pub fn of(lanes: &SceneLanes) -> Self {
         let mut tops = Vec::with_capacity(lanes.list.len() + 1);
@@ -118,24 +118,28 @@ fn height_of(lane: &SceneLane) -> f32 {
 }
 
 /// Returns the part of a bar at a point, apart from handles of fades.
-fn part_at(bar: &SceneBar, rect: Rect, at: Pos2) -> Option<BarPart> {
+fn part_at(bar: &SceneBar, rect: Rect, at: Pos2) -> Option<SceneBarPart> {
     if !rect.contains(at) {
         return None;
     }
     if bar.is_instant() || rect.width() < LEAST_WITH_GRIPS {
-        return Some(BarPart::Body);
+        return Some(SceneBarPart::Body);
     }
     // A shot ends where the next one begins: that one's start is dragged.
     let has_end = !(bar.kind == "shot" && bar.is_passive);
     Some(match () {
-        () if at.x <= rect.left() + GRIP => BarPart::Start,
-        () if at.x >= rect.right() - GRIP && has_end => BarPart::End,
-        () => BarPart::Body,
+        () if at.x <= rect.left() + GRIP => SceneBarPart::Start,
+        () if at.x >= rect.right() - GRIP && has_end => SceneBarPart::End,
+        () => SceneBarPart::Body,
     })
 }
 
 /// Returns the positions of the handles of the fades of a bar.
-pub(super) fn fade_handles(bar: &SceneBar, rect: Rect, scale: &TimeScale) -> [Option<(BarPart, f32)>; 2] {
+pub(super) fn fade_handles(
+    bar: &SceneBar,
+    rect: Rect,
+    scale: &TimeScale,
+) -> [Option<(SceneBarPart, f32)>; 2] {
     if bar.is_instant() || rect.width() < 2.0 * LEAST_WITH_GRIPS {
         return [None; 2];
     }
@@ -143,8 +147,8 @@ pub(super) fn fade_handles(bar: &SceneBar, rect: Rect, scale: &TimeScale) -> [Op
     let has = |name: &str| row.is_some_and(|row| row.attribute(name).is_some());
     let width = |seconds: f64| (seconds * scale.per_second()) as f32;
     let fade_in = (has("fade-in") || has("blend"))
-        .then(|| (BarPart::FadeIn, (rect.left() + width(bar.fade_in.seconds())).min(rect.right())));
+        .then(|| (SceneBarPart::FadeIn, (rect.left() + width(bar.fade_in.seconds())).min(rect.right())));
     let fade_out = has("fade-out")
-        .then(|| (BarPart::FadeOut, (rect.right() - width(bar.fade_out.seconds())).max(rect.left())));
+        .then(|| (SceneBarPart::FadeOut, (rect.right() - width(bar.fade_out.seconds())).max(rect.left())));
     [fade_in, fade_out]
 }

@@ -23,7 +23,7 @@ use drag::BarDragging;
 use dragonfly_document::SceneView;
 use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
-pub use lane_layout::{BarPart, LaneLayout, SceneHit};
+pub use lane_layout::{SceneBarPart, SceneHit, SceneLaneLayout};
 use sheet::SceneSheet;
 pub use snap::snapped_time;
 
@@ -103,7 +103,7 @@ impl SceneTimeline {
         let canvas = Rect::from_min_max(pos2(left, head.bottom()), rect.max);
         let names = Rect::from_min_max(pos2(rect.left(), head.bottom()), pos2(left, rect.bottom()));
         let lanes = std::sync::Arc::clone(context.scene_editing.lanes());
-        let layout = LaneLayout::of(&lanes);
+        let layout = SceneLaneLayout::of(&lanes);
         let window = context.scene_editing.window();
         let window = match self.drag.is_busy() {
             true => *self.held.get_or_insert(window),

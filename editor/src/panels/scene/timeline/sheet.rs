@@ -1,6 +1,6 @@
 //! The timeline of a scene in one frame.
 
-use super::lane_layout::LaneLayout;
+use super::lane_layout::SceneLaneLayout;
 use crate::panels::context::PanelContext;
 use crate::panels::keys::TimeScale;
 use crate::panels::theme::Theme;
@@ -13,7 +13,7 @@ use egui::Rect;
 pub(super) struct SceneSheet<'a> {
     pub(super) scene: &'a SceneView,
     pub(super) lanes: &'a SceneLanes,
-    pub(super) layout: &'a LaneLayout,
+    pub(super) layout: &'a SceneLaneLayout,
     pub(super) scale: &'a TimeScale,
     pub(super) context: &'a PanelContext<'a>,
     pub(super) theme: &'a Theme,
