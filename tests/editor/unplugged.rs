@@ -102,7 +102,23 @@ fn a_drag_without_a_release_leaves_nothing_held_and_no_partial_edit() {
                 let with = if letter == Key::Delete { Modifiers::NONE } else { Modifiers::COMMAND };
                 key(&mut animator, letter, with);
                 animator.hold(modifiers);
-                assert_eq!(animator.edited.steps().1, steps, "round {round}: {letter:?} did something");
+                let labels = || {
+                    animator
+                        .edited
+                        .steps()
+                        .0
+                        .iter()
+                        .rev()
+                        .take(2)
+                        .map(|step| step.edit.label())
+                        .collect::<Vec<_>>()
+                };
+                assert_eq!(
+                    animator.edited.steps().1,
+                    steps,
+                    "round {round}: {letter:?} did something: {:?} from {from}",
+                    labels()
+                );
                 assert_eq!(animator.harness.state().effects.len(), asked, "round {round}: {letter:?}");
                 deaf += 1;
             }

@@ -42,12 +42,14 @@ fn a_scene_is_dragged_typed_cut_undone_redone_saved_and_opened_with_the_same_byt
     let from = layout.bar(index, bar, canvas.top(), &scale).center();
     let by = (0.5 * scale.per_second()) as f32;
     visit.screen.point(from.x as i16, from.y as i16);
+    pass(visit.screen.pace);
     visit.screen.hold();
-    for step in 1..=4 {
-        visit.screen.point((from.x + by * step as f32 / 4.0) as i16, from.y as i16);
+    for step in 1..=12 {
+        visit.screen.point((from.x + by * step as f32 / 12.0) as i16, from.y as i16);
+        pass(visit.screen.pace);
     }
-    visit.screen.release_button();
     visit.until_steps(1, 1);
+    visit.screen.release_button();
 
     // A word more in the comment of the third line.
     let script = place(&mut visit, "Script of the scene");
