@@ -29,6 +29,15 @@ pub(super) struct QuestionFields {
     pub(super) chosen: usize,
 }
 
+/// The part of a path that is selected when its field is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PathPart {
+    /// None: the cursor is at the end.
+    Nothing,
+    /// The name of the file without its ending.
+    Name,
+}
+
 /// Style of a button.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Tone {
@@ -90,12 +99,13 @@ impl Ask<'_> {
     }
 
     /// Draws a field for a path, called `name` for screen readers, and the buttons `confirm` and `cancel`, each a title and its
-    /// tooltip. Returns the path once it is confirmed; a cancel dismisses the question.
+    /// tooltip. `selected` is selected at first. Returns the path once it is confirmed; a cancel dismisses the question.
     pub(super) fn path(
         &mut self,
         name: &str,
         confirm: (&str, &str),
         cancel: (&str, &str),
+        selected: PathPart,
     ) -> Option<PathBuf> {
         let field = TextEdit::singleline(&mut self.fields.path)
             .desired_width(f32::INFINITY)
@@ -104,8 +114,13 @@ impl Ask<'_> {
         let response = self.ui.add(field).accessible_name(name);
         if self.fresh {
             response.request_focus();
-            // As in the dialogs of desktops: typing replaces the name, not the folder or the ending.
-            widgets::select_characters(self.ui.ctx(), response.id, stem_of(&self.fields.path));
+            match selected {
+                PathPart::Nothing => {}
+                // As in the dialogs of desktops: typing replaces the name, not the folder or the ending.
+                PathPart::Name => {
+                    widgets::select_characters(self.ui.ctx(), response.id, stem_of(&self.fields.path));
+                }
+            }
         }
         let entered = response.lost_focus() && self.ui.input(|input| input.key_pressed(Key::Enter));
         // The field has the focus, not the default button.

@@ -1,7 +1,7 @@
 //! The question where the file of unsaved work is now, with a field for the path, for desktops without a file dialog;
 //! and the question what to do with the work if the chosen file is a different one.
 
-use super::ask::{Ask, Tone};
+use super::ask::{Ask, PathPart, Tone};
 use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
@@ -75,7 +75,9 @@ fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
 fn typed(ask: &mut Ask<'_>, offer: &Offer) {
     ask.title(&format!("Where is {} now?", offer.title));
     let open = ("Open", "Open the file with the work, if its content is unchanged");
-    if let Some(path) = ask.path("Path of the file", open, ("Cancel", "Keep the work for later")) {
+    if let Some(path) =
+        ask.path("Path of the file", open, ("Cancel", "Keep the work for later"), PathPart::Nothing)
+    {
         let action = FileAction::Send(DocumentMessage::FoundAt(Box::new(offer.clone()), path));
         ask.requests.push(Request::Answer(action));
     }

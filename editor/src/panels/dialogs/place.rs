@@ -1,6 +1,6 @@
 //! A field for the path to save at, for desktops without a file dialog.
 
-use super::ask::Ask;
+use super::ask::{Ask, PathPart};
 use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
@@ -49,7 +49,9 @@ impl QuestionKind for PlaceQuestion {
         ask.ui.set_width(520.0);
         ask.title(if self.copy { "Save a copy" } else { "Save as" });
         let save = ("Save", "Write the file");
-        if let Some(path) = ask.path("Path to save at", save, ("Cancel", "Close without saving")) {
+        if let Some(path) =
+            ask.path("Path to save at", save, ("Cancel", "Close without saving"), PathPart::Name)
+        {
             let to = if self.copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
             let order = SaveOrder { to, anyway: false, then: self.then.clone() };
             ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
