@@ -64,7 +64,7 @@ pub fn add_clip(
     add_action(scene, who, NewElement::new("play").with("who", who).with("take", take), at)
 }
 
-/// Lets a thing follow a path from `at` on, with a take that goes on the spot: placed as [`add_clip`] does.
+/// Adds a `move` of a thing along a path from `at`, with this take; its place in the script is that of [`add_clip`].
 ///
 /// # Errors
 ///

@@ -35,7 +35,7 @@ pub struct LineLook {
 }
 
 impl LineLook {
-    /// Returns how a line of a project is drawn, and `wider` by so many points.
+    /// Returns the look of a line of a project; its width grows by `wider` points.
     pub fn of_line(line: &DrawnLine, wider: f32) -> Self {
         Self {
             points: line.samples().points().iter().map(|point| point.as_vec3()).collect(),

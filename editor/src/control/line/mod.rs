@@ -26,7 +26,7 @@ const THRESHOLD: f32 = 3.0;
 /// Largest number of points of a stroke; a longer one ends there.
 const MOST_POINTS: usize = 20_000;
 
-/// What a drawn line becomes.
+/// The purpose of the tool: the kind of thing that a drawn line becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineUse {
     /// A line of the project.
@@ -48,7 +48,7 @@ pub enum LineAnswer {
     Left,
 }
 
-/// What the mouse does.
+/// The state of the mouse.
 #[derive(Clone, Debug, Default, PartialEq)]
 enum LinePhase {
     #[default]

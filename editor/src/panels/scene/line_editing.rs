@@ -14,7 +14,7 @@ pub struct LineEditing {
     /// Name of the selected line.
     selected: Option<Box<str>>,
     hidden: BTreeSet<Box<str>>,
-    /// What is drawn, and what it was made from.
+    /// Lines and paths as they are drawn, and the state they were made from.
     looks: Arc<[LineLook]>,
     made_from: Option<LooksBase>,
 }
