@@ -86,6 +86,7 @@ mod scene_bench;
 mod scene_commands;
 mod scene_documents;
 mod scene_examples;
+mod scene_lines;
 mod scene_outliner;
 mod scene_script;
 mod scene_timeline;

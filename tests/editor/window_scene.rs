@@ -2,7 +2,7 @@
 //! saved file has the same bytes when it is opened again.
 
 use crate::scene_bench::{FOXES, scene};
-use crate::screen::key;
+use crate::screen::{key, pass};
 use crate::window::{SOON, alone};
 use crate::window_visit::Visit;
 use dragonfly::panels::keys::TimeScale;

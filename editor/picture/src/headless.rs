@@ -1,5 +1,6 @@
 //! Rendering images without a window, with the same scene, passes and frames.
 
+use super::control::{LineAppearance, LineLook};
 use super::device::DeviceParameters;
 use super::error::GraphicsError;
 use super::message::{Look, Shading};
@@ -139,6 +140,9 @@ impl Studio {
         if !self.shown.as_ref().is_some_and(same) {
             self.stage.scene.show_scene(scene);
             self.shown = Some(StudioSubject::Scene(Arc::clone(scene)));
+            let lines = scene.lines.iter().flat_map(|lines| lines.list()).filter(|line| line.is_in_movie);
+            let lines = lines.map(|line| LineLook::of_line(line, 0.0)).collect();
+            self.stage.scene.appearances.set(LineAppearance { lines, ..LineAppearance::default() });
         }
         let mut picture = self.draw(settings)?;
         if let Some(cast) = self.stage.scene.cast() {

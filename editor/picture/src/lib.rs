@@ -63,7 +63,8 @@ pub use cast::{PickedThing, PosedScene, ThroughCamera};
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,
-    IkLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton, ThingAppearance,
+    IkLook, LineAppearance, LineLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton,
+    ThingAppearance,
 };
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};
 pub use error::GraphicsError;

@@ -182,6 +182,11 @@ impl EditorRuntime {
             Effect::TogglePanel(id) => interface.toggle_panel(id),
             Effect::ResetLayout => interface.reset_layout(),
             Effect::RetryDevice => graphics.resume(),
+            Effect::NewProject(script) => {
+                if let Err(error) = scene_maker::make_project(script, &running.scenes) {
+                    interface.state.say(MessageSeverity::Error, format!("No project was made: {error}"));
+                }
+            }
             Effect::NewScene(model) => {
                 if let Err(error) = scene_maker::make(model, &running.scenes) {
                     interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));

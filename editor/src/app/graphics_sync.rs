@@ -9,7 +9,7 @@ use dragonfly_picture::gizmo::RoleColors;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
     AppearanceSender, ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook,
-    GraphicsHandle, IkAppearance, Look, PathAppearance, ReferenceAppearance, ThroughCamera,
+    GraphicsHandle, IkAppearance, LineAppearance, Look, PathAppearance, ReferenceAppearance, ThroughCamera,
 };
 use std::sync::Arc;
 
@@ -91,6 +91,11 @@ impl GraphicsSync {
         sender.update(graphics, |path: &mut PathAppearance| {
             path.path = state.tools.path().look().cloned();
             path.hovered = state.tools.controls().path().hovered();
+        });
+        sender.update(graphics, |lines: &mut LineAppearance| {
+            let looks = state.scene_editing.lines().looks();
+            lines.lines = if state.settings.look.lines { Arc::clone(looks) } else { Arc::default() };
+            state.line_draft(&mut lines.draft);
         });
         sender.update(graphics, |ghosts: &mut GhostAppearance| {
             ghosts.skins = state.settings.tools.ghosts.skin;

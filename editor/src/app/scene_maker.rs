@@ -1,7 +1,7 @@
-//! Writes a new scene next to a model, in a job.
+//! Writes a new scene next to a model, or a project next to a scene, in a job.
 
 use super::interface::Interface;
-use crate::panels::scene::{duel_text, free_name};
+use crate::panels::scene::{duel_text, free_name, project_texts};
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction};
 use dragonfly_document::{Cancel, LoadedModel, Source, Then, load_model};
@@ -24,6 +24,33 @@ pub(super) fn make(model: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result
     Ok(())
 }
 
+/// Starts to write a project with a script.
+pub(super) fn make_project(script: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
+    let work = move |_: &JobContext<SceneAnswer>| written_project(&script);
+    Job::start(to, "new project", work, |reason: &str| Err(reason.to_owned()))?.detach();
+    Ok(())
+}
+
+/// Writes a project and a file for its lines next to a script. Files that are there already stay as they are.
+fn written_project(script: &Path) -> SceneAnswer {
+    let name = script
+        .file_name()
+        .and_then(|name| name.to_str())
+        .ok_or("the name of the script is not Unicode text")?;
+    let stem = script.file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
+    let (project, lines) = (script.with_file_name(format!("{stem}.meproj")), format!("{stem}.lines.xml"));
+    let [project_text, lines_text] = project_texts(name, &lines);
+    write_new(&script.with_file_name(&lines), &lines_text)?;
+    write_new(&project, &project_text)?;
+    Ok(project)
+}
+
+fn write_new(place: &Path, text: &str) -> Result<(), String> {
+    let file = std::fs::OpenOptions::new().write(true).create_new(true).open(place);
+    file.and_then(|mut file| file.write_all(text.as_bytes()))
+        .map_err(|error| format!("Cannot write {}: {error}", place.display()))
+}
+
 fn written(path: &Path) -> SceneAnswer {
     let loaded = load_model(&Source::File(path.to_owned()), &mut |_| {}, &Cancel::default())
         .map_err(|error| error.to_string())?;
@@ -33,12 +60,7 @@ fn written(path: &Path) -> SceneAnswer {
     let moving = loaded.model.animation.takes.iter().find(|take| take.length > 0.0);
     let text = duel_text([name, name], scale_of(&loaded), moving.map(|take| take.name.as_str()));
     let place = free_name(folder, Path::exists);
-    let mut file = std::fs::OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(&place)
-        .map_err(|error| format!("Cannot write {}: {error}", place.display()))?;
-    file.write_all(text.as_bytes()).map_err(|error| format!("Cannot write {}: {error}", place.display()))?;
+    write_new(&place, &text)?;
     Ok(place)
 }
 

@@ -8,6 +8,7 @@ mod framework;
 pub mod gizmo;
 mod input;
 mod key;
+pub mod line;
 pub mod path;
 mod places;
 mod viewport;

@@ -11,6 +11,7 @@ use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets::{disabled_hint_beside, hint_beside};
+use crate::control::line::LineUse;
 use dragonfly_document::Source;
 use dragonfly_picture::{BoneLook, Shading};
 use egui::{
@@ -145,6 +146,8 @@ pub(super) fn entries(
             Id::ToggleCurl => context.settings.tools.curl,
             Id::ToggleGhosts => context.settings.tools.ghosts.shown,
             Id::TogglePath => context.settings.tools.path,
+            Id::ToolLine => context.tools.controls().line().use_of() == Some(LineUse::Note),
+            Id::ToolPath => context.tools.controls().line().use_of() == Some(LineUse::Path),
             Id::ToggleProblems => context.findings.is_on(),
             Id::ToggleSceneRipple => context.scene_editing.ripple(),
             _ => false,
@@ -184,7 +187,7 @@ const GROUP_ENDS: &[Id] = &[
     Id::MirrorDialog,
     Id::Retarget,
     // Scene
-    Id::NewScene,
+    Id::ProjectFromScene,
     Id::AddMark,
     Id::SceneRename,
     Id::CutToCamera,
@@ -255,6 +258,7 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     });
     item(ui, context, Id::OpenBuiltIn, false, requests);
     item(ui, context, Id::NewScene, false, requests);
+    item(ui, context, Id::ProjectFromScene, false, requests);
     item(ui, context, Id::ImportTakes, false, requests);
     if context.loading.is_some() {
         item(ui, context, Id::CancelLoading, false, requests);
@@ -308,6 +312,7 @@ fn view(
         item(ui, context, Id::NormalizeCurves, context.settings.curves.normalized, requests);
         item(ui, context, Id::SoloCurves, context.settings.curves.solo, requests);
     });
+    item(ui, context, Id::ToggleLines, look.lines, requests);
     item(ui, context, Id::Reference, context.reference.settings().is_chosen(), requests);
     item(ui, context, Id::ShowReference, context.reference_frame().is_some(), requests);
     let hand = &context.settings.tools;

@@ -183,6 +183,8 @@ pub enum Effect {
     File(FileAction),
     /// Writes a scene of two roles with this model next to its file, and opens it.
     NewScene(PathBuf),
+    /// Writes a project with this script next to its file, and opens it.
+    NewProject(PathBuf),
 }
 
 /// An action about files.

@@ -41,6 +41,8 @@ pub struct LookSettings {
     pub shading: Shading,
     /// Whether the surface is drawn.
     pub surface: bool,
+    /// Whether drawn lines and paths of scenes are shown.
+    pub lines: bool,
 }
 
 impl Default for LookSettings {
@@ -54,6 +56,7 @@ impl Default for LookSettings {
             bones_in_front: true,
             shading: Shading::default(),
             surface: true,
+            lines: true,
         }
     }
 }

@@ -5,8 +5,8 @@ use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, attach_thing, cut_to,
-    delete_clip, duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed,
-    trim_end, trim_start,
+    delete_clip, duplicate_clip, face_thing, follow_path, move_clip, place_thing, set_fade, set_repeat,
+    set_speed, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::script::{StageRepeat, StageScript};
@@ -410,4 +410,20 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
     }
     println!("{done:?}, {refused} refused");
     assert!(done.len() == 10 && done.values().all(|&count| count > 15), "{done:?}");
+}
+
+#[test]
+fn a_role_that_follows_a_path_gets_one_line_and_what_follows_no_path_is_refused() {
+    let text = fox_script(PAR);
+    let path = read(&text)
+        .things()
+        .find(|thing| thing.row.name == "path")
+        .and_then(|path| path.value("id").map(str::to_owned));
+    let path = path.expect("a path in the cast");
+    let lines = changed(PAR, |scene| follow_path(scene, "anna", &path, Some("Walk"), seconds(2.0)));
+    assert_eq!(lines, [format!("<move who=\"anna\" path=\"{path}\" take=\"Walk\" begin=\"1\"/>")]);
+    for (who, way) in [("nobody", path.as_str()), ("anna", "ben"), (path.as_str(), path.as_str())] {
+        let (_, refused) = gesture(PAR, |scene| follow_path(scene, who, way, None, seconds(0.0)));
+        assert!(refused.is_err(), "{who} follows {way}");
+    }
 }

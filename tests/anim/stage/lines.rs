@@ -1,7 +1,8 @@
 //! Drawn lines: fitted to strokes, measured, picked, read and written.
 
 use super::listed;
-use dragonfly_anim::stage::line::{DrawnLines, LineSamples, NewLine, fit};
+use dragonfly_anim::stage::StagePath;
+use dragonfly_anim::stage::line::{DrawnLines, LineSamples, NewLine, fit, path_points};
 use dragonfly_kit::random::{Random, seed};
 use glam::DVec3;
 
@@ -196,4 +197,51 @@ fn errors_of_a_file_of_lines_have_places() {
     }
     let twice = FILE.replace("</lines>", "<line id=\"aisle\" points=\"0 0 0 1 0 0 2 0 0 3 0 0\"/></lines>");
     assert_eq!(DrawnLines::read(twice).expect_err("twice")[0].message, "the id is used at 4:3 already");
+}
+
+#[test]
+fn a_path_of_few_points_follows_a_line_within_the_tolerance() {
+    let seed = seed(20);
+    let mut random = Random::new(seed);
+    println!("seed {seed}");
+    for round in 0..60 {
+        let mut place = DVec3::ZERO;
+        let stroke: Vec<DVec3> = (0..60)
+            .map(|_| {
+                place +=
+                    DVec3::new(f64::from(random.unit()) - 0.2, 0.0, f64::from(random.unit()) - 0.5) * 0.1;
+                place
+            })
+            .collect();
+        let control = fit(&stroke, 0.02);
+        let points = path_points(&control, 0.03);
+        assert!((2..=64).contains(&points.len()), "round {round}: {} points", points.len());
+        if points.len() == 64 {
+            continue;
+        }
+        let path = StagePath::new(&points, true);
+        // No place of the path is far from the line, by another way of measuring than that of the library.
+        for step in 0..=50 {
+            let on_path = path.at(path.length() * f64::from(step) / 50.0).position;
+            assert!(distance(&control, on_path) <= 0.035, "round {round}: {on_path} is beside the line");
+        }
+    }
+    let straight = fit(&[DVec3::ZERO, DVec3::X], 0.01);
+    assert_eq!(path_points(&straight, 0.001), [DVec3::ZERO, DVec3::X]);
+    assert!(path_points(&[], 0.1).is_empty() && path_points(&[DVec3::X; 4], 0.1).is_empty());
+}
+
+#[test]
+fn an_attribute_of_a_line_is_set_and_removed_by_a_change_of_its_own_line() {
+    let text = "<lines version=\"1\">\n  <line id=\"a\" points=\"0 0 0  1 0 0  2 0 0  3 0 0\"/>\n  <!-- kept -->\n  <line id=\"b\" points=\"0 0 0  1 0 0  2 0 0  3 0 0\"/>\n</lines>\n";
+    let lines = DrawnLines::read(text).unwrap_or_else(|errors| panic!("{}", errors[0].in_file(text)));
+    let blue = lines.set(1, "color", Some("#0000ff")).expect("a line").apply(text);
+    let expected = text.replace("<line id=\"b\"", "<line id=\"b\" color=\"#0000ff\"");
+    let changed =
+        DrawnLines::read(blue.as_str()).unwrap_or_else(|errors| panic!("{}", errors[0].in_file(&blue)));
+    assert_eq!((changed.list()[1].color, blue.lines().count()), ([0, 0, 255], expected.lines().count()));
+    let differing = text.lines().zip(blue.lines()).filter(|(old, new)| old != new).count();
+    assert_eq!(differing, 1, "{blue}");
+    assert_eq!(changed.set(1, "color", None).expect("a line").apply(&blue), text);
+    assert!(lines.set(2, "color", None).is_none());
 }

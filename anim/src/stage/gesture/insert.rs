@@ -61,6 +61,48 @@ pub fn add_clip(
     if !matches!(thing.kind, "role" | "prop") {
         return refused(format!("A {} plays no takes", thing.kind));
     }
+    add_action(scene, who, NewElement::new("play").with("who", who).with("take", take), at)
+}
+
+/// Adds a `move` of a thing along a path from `at`, with this take; its place in the script is that of [`add_clip`].
+///
+/// # Errors
+///
+/// There is no such thing or path, or the thing does not move.
+pub fn follow_path(
+    scene: &GestureScene<'_>,
+    who: &str,
+    path: &str,
+    take: Option<&str>,
+    at: StageTime,
+) -> Result<String, GestureRefusal> {
+    let kind = |id: &str| {
+        let thing = scene.plan.thing_called(id).and_then(|thing| scene.plan.things().get(thing));
+        thing.map(|thing| thing.kind)
+    };
+    match kind(who) {
+        Some("role" | "prop" | "camera") => {}
+        Some(kind) => return refused(format!("A {kind} follows no path")),
+        None => return refused(format!("No thing of the cast has the id \"{who}\"")),
+    }
+    if kind(path) != Some("path") {
+        return refused(format!("\"{path}\" is no path of the cast"));
+    }
+    let step = NewElement::new("move").with("who", who).with("path", path);
+    let step = match take {
+        Some(take) => step.with("take", take),
+        None => step,
+    };
+    add_action(scene, who, step, at)
+}
+
+/// Adds an action of a thing at `at`: at the end of its `seq` where its last clip is in one, otherwise in a `par`.
+fn add_action(
+    scene: &GestureScene<'_>,
+    who: &str,
+    mut action: NewElement,
+    at: StageTime,
+) -> Result<String, GestureRefusal> {
     let at = at.max(StageTime::ZERO);
     let own = |&action: &usize| scene.script.element(action).value("who") == Some(who);
     let last =
@@ -78,12 +120,11 @@ pub fn add_clip(
         }
         None => place_in_par(scene, last),
     };
-    let mut clip = NewElement::new("play").with("who", who).with("take", take);
     if at != base {
-        clip =
-            clip.with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
+        let begin = time_text(readable(at - base, scene.script.rate()), scene.script.rate(), "");
+        action = action.with("begin", begin);
     }
-    ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &clip))?.finish()
+    ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &action))?.finish()
 }
 
 /// Attaches a thing to another one, or to a bone of it such as `anna.RightHand`, from `at` on.

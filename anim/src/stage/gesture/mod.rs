@@ -14,7 +14,7 @@
 //! | [`trim_end`] | `to` of a take, `repeat` beyond its end, otherwise `dur` or `end` |
 //! | [`set_fade`], [`set_speed`], [`set_repeat`] | the attribute; removed where it is the default |
 //! | [`delete_clip`], [`duplicate_clip`] | one element |
-//! | [`cut_to`], [`add_clip`], [`attach_thing`] | one new element |
+//! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`] | one new element |
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
@@ -31,7 +31,7 @@ mod scene;
 mod trim;
 
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
-pub use insert::{add_clip, attach_thing, cut_to};
+pub use insert::{add_clip, attach_thing, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
 pub use places::{face_thing, place_thing};
 pub use removal::{delete_clip, duplicate_clip};

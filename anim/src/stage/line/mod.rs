@@ -17,12 +17,14 @@
 //! # Ok::<(), String>(())
 //! ```
 
+mod course;
 mod fit;
 mod read;
 mod samples;
 mod write;
 
+pub use course::path_points;
 pub use fit::fit;
 pub use read::{DrawnLine, DrawnLines};
 pub use samples::{LineSamples, LineSpot};
-pub use write::NewLine;
+pub use write::{NewLine, points_text};

@@ -2,7 +2,7 @@
 
 use super::read::DrawnLines;
 use crate::stage::splice::{
-    AttachedComments, ElementPlace, NewElement, TextSplices, delete, insert, set_attribute,
+    AttachedComments, ElementPlace, NewElement, TextSplices, delete, insert, remove_attribute, set_attribute,
 };
 use glam::DVec3;
 
@@ -27,7 +27,7 @@ impl DrawnLines {
         for (name, value) in &new.attributes {
             element = element.with(name, value);
         }
-        let element = element.with("points", points_text(&new.points)?);
+        let element = element.with("points", control_text(&new.points)?);
         let place = match self.list().last() {
             Some(last) => ElementPlace::After(last.element),
             None => ElementPlace::First(0),
@@ -38,7 +38,16 @@ impl DrawnLines {
     /// Replaces the points of the line at a position of [`Self::list`]. `None` where there is none, or for a number of points that no line
     /// has.
     pub fn reshaped(&self, line: usize, points: &[DVec3]) -> Option<TextSplices> {
-        set_attribute(self.tree(), self.list().get(line)?.element, "points", &points_text(points)?)
+        set_attribute(self.tree(), self.list().get(line)?.element, "points", &control_text(points)?)
+    }
+
+    /// Sets an attribute of the line at a position of [`Self::list`], or removes it. `None` where there is none.
+    pub fn set(&self, line: usize, attribute: &str, value: Option<&str>) -> Option<TextSplices> {
+        let element = self.list().get(line)?.element;
+        match value {
+            Some(value) => set_attribute(self.tree(), element, attribute, value),
+            None => remove_attribute(self.tree(), element, attribute),
+        }
     }
 
     /// Removes the line at a position of [`Self::list`]. `None` where there is none.
@@ -47,9 +56,14 @@ impl DrawnLines {
     }
 }
 
-/// Returns control points as a file has them, rounded to 0.1 mm.
-fn points_text(points: &[DVec3]) -> Option<String> {
-    if points.len() % 3 != 1 || points.len() < 4 || !points.iter().all(|point| point.is_finite()) {
+/// Returns control points as a file has them. `None` for a number of points that no line has.
+fn control_text(points: &[DVec3]) -> Option<String> {
+    if points.len() % 3 != 1 || points.len() < 4 { None } else { points_text(points) }
+}
+
+/// Returns points as files of lines and paths of scripts have them: meters, rounded to 0.1 mm. `None` where a number is not finite.
+pub fn points_text(points: &[DVec3]) -> Option<String> {
+    if !points.iter().all(|point| point.is_finite()) {
         return None;
     }
     let point = |point: &DVec3| point.to_array().map(number).join(" ");

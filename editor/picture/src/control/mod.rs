@@ -10,6 +10,7 @@ mod component;
 mod ghosts;
 mod gizmo;
 mod ik;
+mod lines;
 mod path;
 
 pub use cast::ThingAppearance;
@@ -18,6 +19,7 @@ pub use component::{ControlFrame, GraphicComponent};
 pub use ghosts::GhostAppearance;
 pub use gizmo::{GizmoAppearance, GizmoDragAppearance, GizmoLook};
 pub use ik::{IkAppearance, IkLook};
+pub use lines::{LineAppearance, LineLook};
 pub use path::{PathAppearance, PathLook};
 
 use crate::gizmo::GizmoShape;
@@ -32,6 +34,7 @@ pub struct SceneControls {
 fn all() -> Vec<Box<dyn GraphicComponent>> {
     vec![
         Box::<cast::CastGraphic>::default(),
+        Box::<lines::LinesGraphic>::default(),
         Box::<ghosts::GhostsGraphic>::default(),
         Box::<compared::ComparedGraphic>::default(),
         Box::<path::PathGraphic>::default(),

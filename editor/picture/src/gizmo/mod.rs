@@ -4,6 +4,7 @@
 mod axes;
 mod delta;
 mod handle;
+mod ink;
 mod select;
 mod shape;
 mod view;
@@ -11,6 +12,7 @@ mod view;
 pub use axes::{GizmoAxes, GizmoAxis, GizmoSpace, GizmoTarget, Pivot, unit};
 pub use delta::GizmoDelta;
 pub use handle::{AXIS_FROM, AXIS_TO, CENTER, GizmoLayout, Handle, OUTER, PLANE, REACH, RING, Tool};
+pub use ink::LineInk;
 pub use select::{GizmoAnchor, GizmoPlacement, PosedSkeleton};
 pub use shape::{GizmoRole, GizmoShape, GizmoVertex, RoleColors};
 pub use view::GizmoView;

@@ -3,6 +3,7 @@
 use super::axes::GizmoAxis;
 use super::delta::GizmoDelta;
 use super::handle::{AXIS_FROM, AXIS_TO, CENTER, GizmoLayout, Handle, OUTER, PIECES, RING, Tool};
+use super::ink::LineInk;
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -90,7 +91,7 @@ impl Default for RoleColors {
 pub struct GizmoVertex {
     /// Position, scene space.
     pub position: Vec3,
-    /// A [`GizmoRole`].
+    /// A [`GizmoRole`], or a [`LineInk`] by its bits.
     pub role: u32,
     /// Opacity, 0 to 1.
     pub opacity: f32,
@@ -128,6 +129,11 @@ impl GizmoShape {
     /// Adds a line, scene space; opacity 0 to 1.
     pub fn add_line(&mut self, from: Vec3, to: Vec3, role: GizmoRole, opacity: f32) {
         self.lines.extend([from, to].map(|position| GizmoVertex { position, role: role as u32, opacity }));
+    }
+
+    /// Adds a line with a color and a width of its own, scene space; opacity 0 to 1.
+    pub fn add_inked_line(&mut self, from: Vec3, to: Vec3, ink: LineInk, opacity: f32) {
+        self.lines.extend([from, to].map(|position| GizmoVertex { position, role: ink.bits(), opacity }));
     }
 
     /// Adds a diamond in the image plane: `right` and `up` reach to its corners.

@@ -118,7 +118,9 @@ struct ControlStyle {
     colors: [[f32; 4]; GizmoRole::COUNT],
     /// Half the width of a line, pixels.
     half_width: f32,
-    pad: [f32; 3],
+    /// Pixels of a point.
+    pixels: f32,
+    pad: [f32; 2],
 }
 
 impl ControlStyle {
@@ -127,7 +129,8 @@ impl ControlStyle {
             let [red, green, blue] = look.handles.get(role);
             [red, green, blue, 1.0]
         });
-        Self { colors, half_width: WIDTH * look.pixels_per_point.max(0.1) / 2.0, pad: [0.0; 3] }
+        let pixels = look.pixels_per_point.max(0.1);
+        Self { colors, half_width: WIDTH * pixels / 2.0, pixels, pad: [0.0; 2] }
     }
 }
 

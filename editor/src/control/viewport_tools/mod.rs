@@ -6,6 +6,7 @@
 //!       ├ shields: toolbars on top           panels take precedence where they are
 //!       └ gizmo                             where its handles are; everywhere during its drag
 //!           └ path                          the same with its keys, which cover the handles of the gizmo
+//!               └ line                      everywhere while lines are drawn
 //! ```
 //!
 //! Inputs arrive as they happen, not once a frame. The owner takes the outcome after each.
@@ -28,6 +29,7 @@ use super::framework::ControlFramework;
 use super::gizmo::GizmoControl;
 use super::input::InputEvent;
 use super::key::Modifiers;
+use super::line::LineControl;
 use super::path::PathControl;
 use super::viewport::ViewportControl;
 use dragonfly_picture::camera::Camera;
@@ -89,6 +91,7 @@ macro_rules! tools {
 tools! {
     gizmo: GizmoControl,
     path: PathControl,
+    line: LineControl,
 }
 
 impl ControlLookup for ToolSet {
@@ -143,6 +146,16 @@ impl ViewportTools {
     /// Returns the keys of the motion path, to be changed.
     pub fn path_mut(&mut self) -> &mut PathControl {
         &mut self.owner.path.1
+    }
+
+    /// Returns the tool that draws lines.
+    pub fn line(&self) -> &LineControl {
+        &self.owner.line.1
+    }
+
+    /// Returns the tool that draws lines, to be changed.
+    pub fn line_mut(&mut self) -> &mut LineControl {
+        &mut self.owner.line.1
     }
 
     /// Sets the area of the viewport and of what covers it, points from the top left of the window. Allocates only when

@@ -1,6 +1,7 @@
 //! The interface of a tool: what it is given, and what it asks for.
 
 use crate::control::base::{BaseControl, Mouse};
+use crate::control::line::LineAnswer;
 use crate::control::path::PathKey;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::edit::Edit;
@@ -38,6 +39,8 @@ pub enum ToolOutcome {
     MoveKey(PathKey),
     /// Apply an edit. It replaces the edit that the same drag asked for before.
     Edit(Edit),
+    /// Change the lines of the scene.
+    Line(LineAnswer),
     /// End the drag.
     Done,
     /// End the drag and undo what it changed.

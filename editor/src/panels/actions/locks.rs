@@ -28,6 +28,7 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         | Effect::ResetLayout
         | Effect::RetryDevice
         | Effect::NewScene(_)
+        | Effect::NewProject(_)
         | Effect::File(_) => &[],
     };
     let skeleton = &workspace.model.loaded()?.model.animation.skeleton;

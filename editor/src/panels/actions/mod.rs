@@ -27,6 +27,7 @@ pub(super) mod pose_library;
 mod reopened;
 pub(super) mod scene;
 pub(super) mod scene_clips;
+pub(super) mod scene_lines;
 pub(super) mod scope;
 pub(super) mod sets;
 pub(super) mod show;

@@ -1,6 +1,6 @@
 //! Scenes: selection, the newest text, things of the cast.
 
-use super::playback;
+use super::{playback, scene_lines};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::Effect;
 use crate::panels::scene::{NewThing, SceneBase, SceneRequest, ScriptChange, new_thing_text};
@@ -55,6 +55,7 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Window(window) => workspace.scene.set_window(window),
         SceneRequest::Refused(reason) => workspace.say(MessageSeverity::Info, reason),
         SceneRequest::EditModel(thing) => edit_model(workspace, &thing),
+        SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
     }
     None
 }

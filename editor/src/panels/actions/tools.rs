@@ -11,6 +11,12 @@ use dragonfly_anim::motion::guess_hips;
 use dragonfly_picture::gizmo::{GizmoSettings, GizmoSpace, Tool};
 use std::time::Instant;
 
+/// Chooses the transformation of the gizmo, or only to select. Drawing lines ends.
+pub(in crate::panels) fn choose(workspace: &mut Workspace, tool: Option<Tool>) {
+    workspace.tools.controls_mut().line_mut().choose(None);
+    workspace.settings.tools.tool = tool;
+}
+
 /// Switches to the next axes: the bone's, its parent's, the scene's, the view's.
 pub(in crate::panels) fn next_space(workspace: &mut Workspace) {
     let space = &mut workspace.settings.tools.space;

@@ -3,6 +3,7 @@
 use super::PanelContext;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
+use glam::Vec3;
 
 /// Distance from a frame within which a time is that frame, frames.
 const ON_FRAME: f64 = 0.01;
@@ -11,6 +12,14 @@ impl<'a> PanelContext<'a> {
     /// Returns the scene that is open; `None` while a model is.
     pub fn scene(&self) -> Option<&'a SceneView> {
         self.view?.scene.as_deref()
+    }
+
+    /// Writes the points of the line that is being drawn, scene space.
+    pub fn line_draft(&self, out: &mut Vec<Vec3>) {
+        let mut points = Vec::new();
+        self.tools.controls().line().add_draft(&mut points);
+        out.clear();
+        out.extend(points.iter().map(|point| point.as_vec3()));
     }
 
     /// Returns the exact time of the playhead in the scene.

@@ -1,6 +1,7 @@
 //! The scene as it is edited: what is selected, hidden and locked, its lanes, and the newest text.
 
 use super::follow::follow_action;
+use super::line_editing::LineEditing;
 use super::request::ScriptChange;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::StagePlan;
@@ -32,6 +33,7 @@ pub struct SceneEditing {
     window: Option<TimeWindow>,
     shown: Option<(Arc<StageScript>, Arc<StagePlan>)>,
     lanes: Arc<SceneLanes>,
+    lines: LineEditing,
     /// The newest text that was sent and not answered yet.
     sent: Option<SentText>,
     /// The gesture in progress, with the text at its start.
@@ -62,6 +64,7 @@ impl Default for SceneEditing {
             window: None,
             shown: None,
             lanes: Arc::default(),
+            lines: LineEditing::default(),
             sent: None,
             gesture: None,
             typing: None,
@@ -124,6 +127,20 @@ impl SceneEditing {
     /// Returns the lanes of the script that is shown.
     pub fn lanes(&self) -> &Arc<SceneLanes> {
         &self.lanes
+    }
+
+    /// Returns the lines as they are edited.
+    pub fn lines(&self) -> &LineEditing {
+        &self.lines
+    }
+
+    pub(in crate::panels) fn lines_mut(&mut self) -> &mut LineEditing {
+        &mut self.lines
+    }
+
+    /// Adapts what is drawn of lines and paths to the scene and the selection.
+    pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>) {
+        self.lines.update(scene, &self.things);
     }
 
     /// Returns whether a gesture is a word that someone types.

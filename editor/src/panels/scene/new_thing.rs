@@ -20,6 +20,10 @@ pub enum NewThing {
     Effect,
     /// A way along the ground.
     Path,
+    /// A way that was drawn: its points in meters as scripts have them, and whether it is smooth.
+    DrawnPath(String, bool),
+    /// A way along a line of the project, by its id.
+    LinePath(String),
     /// A place to go to.
     Mark,
 }
@@ -33,7 +37,8 @@ impl NewThing {
             Self::Camera => "Add camera",
             Self::Light => "Add light",
             Self::Effect => "Add effect",
-            Self::Path => "Add path",
+            Self::Path | Self::LinePath(_) => "Add path",
+            Self::DrawnPath(..) => "Draw path",
             Self::Mark => "Add mark",
         }
     }
@@ -56,6 +61,11 @@ impl NewThing {
                 named("effect", "effect").with("kind", "particles").with("preset", "rain").with("at", "0 6 0")
             }
             Self::Path => named("path", "path").with("points", "0 0 0  2 0 0").with("curve", "smooth"),
+            Self::DrawnPath(points, is_smooth) => {
+                let path = named("path", "path").with("points", points.as_str());
+                if *is_smooth { path.with("curve", "smooth") } else { path }
+            }
+            Self::LinePath(line) => named("path", line).with("line", line.as_str()),
             Self::Mark => named("mark", "mark").with("at", "0 0 0"),
         }
     }

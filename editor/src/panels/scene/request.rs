@@ -18,6 +18,21 @@ pub struct ScriptChange {
     pub gesture: Option<Gesture>,
 }
 
+/// A request about a drawn line, by its name in the editor.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LineRequest {
+    /// Selects a line, or none.
+    Select(Option<Box<str>>),
+    /// Hides a line, or shows it again.
+    Hide(Box<str>, bool),
+    /// Sets an attribute of a line, or removes it.
+    Set(Box<str>, &'static str, Option<String>),
+    /// Deletes a line.
+    Delete(Box<str>),
+    /// Adds a path along a line to the cast.
+    UseAsPath(Box<str>),
+}
+
 /// A request about a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneRequest {
@@ -45,4 +60,6 @@ pub enum SceneRequest {
     Refused(String),
     /// Opens the takes and bones of the model of a thing, in place.
     EditModel(Box<str>),
+    /// A request about a drawn line.
+    Line(LineRequest),
 }

@@ -32,6 +32,19 @@ pub fn duel_text(models: [&str; 2], scale: f64, take: Option<&str>) -> String {
     )
 }
 
+/// Returns the texts of a project with a script, and of its file of lines. Both are named relative to the folder of the project.
+pub fn project_texts(script: &str, lines: &str) -> [String; 2] {
+    let [script, lines] =
+        [script, lines].map(|text| text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;"));
+    [
+        format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<project version=\"1\">\n  <lines src=\"{lines}\"/>\n  \
+             <script id=\"main\" src=\"{script}\"/>\n</project>\n"
+        ),
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<lines version=\"1\">\n</lines>\n".to_owned(),
+    ]
+}
+
 /// Returns a path in `folder` that `exists` does not have: `scene.xml`, `scene-2.xml` and so on.
 pub fn free_name(folder: &Path, exists: impl Fn(&Path) -> bool) -> PathBuf {
     let numbered = (2_u32..).map(|number| folder.join(format!("scene-{number}.xml")));

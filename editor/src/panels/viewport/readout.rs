@@ -12,7 +12,7 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
-/// Draws the text during a drag, while a command waits for its drag, over a gizmo that cannot be dragged, and over the keys of a motion path.
+/// Draws the text during a drag, while a line is drawn, while a command waits for its drag, over a gizmo that cannot be dragged, and over the keys of a motion path.
 pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
@@ -26,6 +26,17 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
             let color = if readout.is_number { theme.accent } else { theme.warning };
             job.append(&typed, 10.0, digits(color));
         }
+    } else if let Some(measure) = context.tools.controls().line().measure() {
+        job.append("Line", 0.0, words(theme.text));
+        job.append(&format!("{:.2} m", measure.length), 10.0, digits(theme.text));
+        if let Some(angle) = measure.angle {
+            job.append(&format!("{:.1}\u{b0}", zero(angle)), 10.0, digits(theme.text));
+        }
+        if context.tools.controls().is_modal() {
+            job.append("Enter ends it, Backspace takes a corner back, Esc gives up", 10.0, words(theme.weak));
+        }
+    } else if context.tools.controls().line().is_erasing() {
+        job.append("Erase lines", 0.0, words(theme.text));
     } else if let Some(catch) = context.tools.controls().picture().armed() {
         let what = match catch {
             Catch::Box => "Drag a box over bones",

@@ -2,6 +2,7 @@
 
 use super::glass::{divider_across, glass};
 use super::ik;
+use crate::control::line::LineUse;
 use crate::panels::command_button::column_button;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
@@ -30,11 +31,13 @@ pub(super) fn toolbar(
     };
     // All but the first have a button for the rest.
     let ik = if context.ik.on { 3.0 } else { 2.0 };
-    let heights =
-        [height(8.0 + ik, 3.0), height(7.0 + ik, 2.0), height(7.0, 1.0), height(5.0, 0.0), height(1.0, 0.0)];
+    let has_scene = context.scene().is_some();
+    let drawn = if has_scene { 2.0 } else { 0.0 };
+    let heights = [8.0 + ik + drawn, 7.0 + ik + drawn, 7.0 + drawn, 5.0 + drawn, 1.0];
+    let heights: [f32; 5] = std::array::from_fn(|at| height(heights[at], [3.0, 2.0, 1.0, 0.0, 0.0][at]));
     let fits = heights.iter().position(|&height| height <= room).filter(|_| rect.width() >= 240.0)?;
     let two = matches!(fits, 1 | 2) && rect.width() >= 320.0;
-    let (width, high) = if two { (58.0, height(6.0, 1.0)) } else { (32.0, heights[fits]) };
+    let (width, high) = if two { (58.0, height(6.0 + drawn, 1.0)) } else { (32.0, heights[fits]) };
     let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(width, high));
     glass(ui, at);
     let mut column = |left: f32, salt: &str| {
@@ -46,8 +49,14 @@ pub(super) fn toolbar(
     };
     let (mut first, mut second) = (column(0.0, "hand"), two.then(|| column(26.0, "hand, second")));
     let ui = &mut first;
+    let use_of = context.tools.controls().line().use_of();
     for (icon, id, tool) in HANDS.into_iter().filter(|_| fits <= 3) {
-        column_button(ui, icon, id, hand.tool == tool, requests);
+        column_button(ui, icon, id, hand.tool == tool && use_of.is_none(), requests);
+    }
+    if has_scene && fits <= 3 {
+        for (icon, id, own) in DRAWING {
+            column_button(ui, icon, id, use_of == Some(own), requests);
+        }
     }
     if fits <= 2 {
         divider_across(ui);
@@ -85,6 +94,10 @@ const HANDS: [(Icon, Id, Option<Tool>); 4] = [
     (Icon::Scale, Id::ToolScale, Some(Tool::Scale)),
 ];
 
+/// The tools that draw in scenes.
+const DRAWING: [(Icon, Id, LineUse); 2] =
+    [(Icon::Pencil, Id::ToolLine, LineUse::Note), (Icon::Trail, Id::ToolPath, LineUse::Path)];
+
 /// Draws the button with the menu of the tools that do not fit.
 fn rest(ui: &mut Ui, context: &PanelContext<'_>, fits: usize, requests: &mut Vec<Request>) {
     let hand = &context.settings.tools;
@@ -93,6 +106,12 @@ fn rest(ui: &mut Ui, context: &PanelContext<'_>, fits: usize, requests: &mut Vec
         ui.set_width(190.0);
         for (_, id, tool) in HANDS.into_iter().filter(|_| fits > 3) {
             menu::item(ui, context, id, hand.tool == tool, requests);
+        }
+        if fits > 3 && context.scene().is_some() {
+            for (_, id, own) in DRAWING {
+                let on = context.tools.controls().line().use_of() == Some(own);
+                menu::item(ui, context, id, on, requests);
+            }
         }
         if fits > 2 {
             menu::item(ui, context, Id::NextSpace, false, requests);

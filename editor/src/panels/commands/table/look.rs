@@ -12,6 +12,7 @@ commands! {
     ToggleSkeleton => When::Always, "Skeleton", [key(NONE, Key::B)], "Shows or hides the bones", |w| { w.settings.look.skeleton ^= true; None };
     ToggleXRay => When::Always, "Bones in front (X-ray)", [key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None };
     ToggleSurface => When::Always, "Surface", [key(NONE, Key::M)], "Shows or hides the model's surface", |w| { w.settings.look.surface ^= true; None };
+    ToggleLines => When::Always, "Lines and paths", [], "Shows or hides drawn lines and the paths of a scene", |w| { w.settings.look.lines ^= true; None };
     Reference => When::Model, "Reference picture…", [], "Shows a picture, an image sequence or a GIF behind the model, frame by frame with the playhead (image plane, background, rotoscoping)", |w| { w.prompts.toggle(Overlay::Reference); None };
     ShowReference => When::Reference, "Show reference picture", [], "Shows or hides the reference picture", |w| { let now = w.reference.settings().clone(); w.reference.set(ReferenceSettings { shown: !now.shown, ..now }); None };
     ShadeMaterial => When::Always, "Materials", [key(SHIFT, Key::Num1)], "Shades surfaces with their materials", |w| { w.settings.look.shading = Shading::Material; None };

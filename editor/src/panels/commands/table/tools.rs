@@ -2,16 +2,21 @@
 
 use super::*;
 use crate::control::Catch;
-use crate::panels::actions::tools;
+use crate::control::line::{LineSurface, LineUse};
+use crate::panels::actions::{scene_lines, tools};
 use dragonfly_picture::gizmo::GizmoSpace;
 use dragonfly_picture::gizmo::Pivot;
 use dragonfly_picture::gizmo::Tool;
 
 commands! {
-    ToolSelect => When::Always, "Select", [key(NONE, Key::Q)], "Selects bones, without a gizmo", |w| { w.settings.tools.tool = None; None };
-    ToolMove => When::Always, "Move", [key(NONE, Key::W)], "Shows the gizmo that moves the selected bones", |w| { w.settings.tools.tool = Some(Tool::Move); None };
-    ToolRotate => When::Always, "Rotate", [key(NONE, Key::E)], "Shows the gizmo that rotates the selected bones", |w| { w.settings.tools.tool = Some(Tool::Rotate); None };
-    ToolScale => When::Always, "Scale", [key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { w.settings.tools.tool = Some(Tool::Scale); None };
+    ToolSelect => When::Always, "Select", [key(NONE, Key::Q)], "Selects bones, without a gizmo", |w| { tools::choose(w, None); None };
+    ToolMove => When::Always, "Move", [key(NONE, Key::W)], "Shows the gizmo that moves the selected bones", |w| { tools::choose(w, Some(Tool::Move)); None };
+    ToolRotate => When::Always, "Rotate", [key(NONE, Key::E)], "Shows the gizmo that rotates the selected bones", |w| { tools::choose(w, Some(Tool::Rotate)); None };
+    ToolScale => When::Always, "Scale", [key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { tools::choose(w, Some(Tool::Scale)); None };
+    ToolLine => When::Scene, "Draw lines", [key(NONE, Key::D)], "Draws lines of the project: drag freehand, with Shift straight; click corners and end with Enter; Ctrl erases", |w| { scene_lines::choose(w, LineUse::Note); None };
+    ToolPath => When::Scene, "Draw a path", [key(SHIFT, Key::N)], "Draws a path on the ground that roles can follow: drag freehand, with Shift straight; click corners and end with Enter", |w| { scene_lines::choose(w, LineUse::Path); None };
+    LinesOnGround => When::Always, "Draw on the ground", [], "Draws lines on the ground", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::Ground); None };
+    LinesInView => When::Always, "Draw in the view", [], "Draws lines in the plane through the point that the camera looks at", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::View); None };
     MoveNow => When::BoneInTake, "Move with the mouse", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };
     RotateNow => When::BoneInTake, "Rotate with the mouse", [], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None };
     ScaleNow => When::BoneInTake, "Scale with the mouse", [], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None };

@@ -1,5 +1,6 @@
 //! The list of the things of a scene: roles, props, cameras, lights, effects, paths, marks.
 
+mod lines;
 mod name_field;
 mod row;
 
@@ -16,6 +17,7 @@ use crate::panels::search_field;
 use crate::panels::theme::Theme;
 use dragonfly_document::bones::Choice;
 use egui::{RichText, ScrollArea, Ui};
+use lines::LineRows;
 use name_field::NameField;
 
 /// The kinds of things with their headings, in the order in which they are listed.
@@ -37,6 +39,7 @@ const SEARCHED: usize = 12;
 pub struct Outliner {
     query: String,
     name: NameField,
+    lines: LineRows,
     /// The thing from which Shift selects.
     from: Option<Box<str>>,
 }
@@ -109,6 +112,7 @@ impl Panel for Outliner {
                     self.choose(ui, id, &listed, requests);
                 }
             }
+            self.lines.show(ui, context, requests);
             ui.add_space(2.0 * GRID);
         });
     }

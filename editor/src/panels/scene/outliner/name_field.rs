@@ -76,6 +76,46 @@ impl NameField {
     }
 }
 
+/// Whether a field still has the keyboard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FieldEnd {
+    /// The name is still typed.
+    Open,
+    /// Enter was pressed, or the field was left.
+    Kept,
+    /// Escape was pressed.
+    GivenUp,
+}
+
+/// Draws a field for a name in place of a row. It has the keyboard until it is left.
+pub(super) fn typed_name(ui: &mut Ui, label: &str, text: &mut String) -> FieldEnd {
+    let id = Id::unique(label);
+    let had_focus = ui.memory(|memory| memory.has_focus(id));
+    let enter = had_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
+    let escape = ui.input(|input| input.key_pressed(Key::Escape));
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), egui::Sense::hover());
+    let rect = Rect::from_min_max(
+        pos2(rect.left() + 30.0, rect.top() + 1.0),
+        pos2(rect.right() - 8.0, rect.bottom() - 1.0),
+    );
+    ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), Theme::of(ui).sunken);
+    let field = TextEdit::singleline(text)
+        .id(id)
+        .frame(Frame::NONE.inner_margin(Margin::symmetric(6, 0)))
+        .align(egui::Align2::LEFT_CENTER)
+        .char_limit(200)
+        .desired_width(rect.width());
+    let response = ui.place(rect, field).accessible_name(label);
+    if !had_focus && !response.lost_focus() {
+        response.request_focus();
+    }
+    match () {
+        () if escape => FieldEnd::GivenUp,
+        () if enter || response.lost_focus() => FieldEnd::Kept,
+        () => FieldEnd::Open,
+    }
+}
+
 /// Returns the request that gives a thing another name, wherever it is used.
 fn renamed(context: &PanelContext<'_>, thing: &str, name: &str) -> SceneRequest {
     let Some(scene) = context.scene() else { return SceneRequest::Rename(None) };

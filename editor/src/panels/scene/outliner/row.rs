@@ -144,6 +144,9 @@ fn menu(
         if kind == "camera" {
             item(ui, context, Id::CutToCamera, false, requests);
         }
+        if matches!(kind, "role" | "prop" | "path") {
+            item(ui, context, Id::WalkAlong, false, requests);
+        }
         for id in [Id::SceneRename, Id::SceneDuplicate, Id::SceneDelete] {
             item(ui, context, id, false, requests);
         }

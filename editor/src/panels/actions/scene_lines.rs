@@ -1,0 +1,274 @@
+//! Lines and paths of a scene: drawn, erased, followed.
+
+use super::scene::{self, gesture};
+use super::tools;
+use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
+use crate::panels::request::Effect;
+use crate::panels::scene::{LineRequest, NewThing, line_named};
+use crate::panels::status::MessageSeverity;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
+use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, points_text};
+use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
+use dragonfly_anim::stage::{PlannedThing, StageTake};
+use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
+use dragonfly_document::{Change, SceneView};
+use dragonfly_picture::gizmo::GizmoView;
+use glam::Vec2;
+use std::sync::Arc;
+
+/// Distance from the pointer within which a line is erased, points.
+const REACH: f64 = 7.0;
+
+/// Least distance by which a path may differ from the stroke, meters.
+const PATH_TOLERANCE: f64 = 0.01;
+
+/// The text of a file of lines before the first one.
+const NO_LINES: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<lines version=\"1\">\n</lines>\n";
+
+/// Begins to draw lines or paths; a second time ends it.
+pub(in crate::panels) fn choose(workspace: &mut Workspace, use_of: LineUse) {
+    let is_on = workspace.tools.controls().line().use_of() == Some(use_of);
+    if is_on {
+        return workspace.tools.controls_mut().line_mut().choose(None);
+    }
+    let has_project = workspace.read().scene().is_some_and(|scene| scene.project.is_some());
+    if use_of == LineUse::Note && !has_project {
+        let text = "Lines belong to a project: File ▸ New project from this scene. A path can be drawn without one (Draw a path)";
+        return workspace.say(MessageSeverity::Info, text);
+    }
+    let target = workspace.camera.camera().target.as_dvec3();
+    let line = workspace.tools.controls_mut().line_mut();
+    line.set_pivot(target);
+    line.choose(Some(use_of));
+    tools::sync_gizmo(workspace);
+}
+
+/// Carries out what the tool that draws lines asks for.
+pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<Effect> {
+    match answer {
+        LineAnswer::Drawn(LineUse::Path, stroke) => draw_path(workspace, &stroke),
+        LineAnswer::Drawn(LineUse::Note, stroke) => draw_note(workspace, &stroke),
+        LineAnswer::Erased(places) => erase(workspace, &places),
+        LineAnswer::NoGround => {
+            workspace.say(MessageSeverity::Info, "There is no ground above the horizon");
+            None
+        }
+        LineAnswer::Left => None,
+    }
+}
+
+/// Executes a request about a line.
+pub(super) fn perform(workspace: &mut Workspace, request: LineRequest) -> Option<Effect> {
+    match request {
+        LineRequest::Select(line) => {
+            workspace.scene.lines_mut().select(line);
+            None
+        }
+        LineRequest::Hide(line, hide) => {
+            workspace.scene.lines_mut().hide(line, hide);
+            None
+        }
+        LineRequest::Set(line, attribute, value) => {
+            let label = if attribute == "id" { "Rename" } else { "Change value" };
+            if attribute == "id" {
+                workspace.scene.lines_mut().select(value.as_deref().map(Into::into));
+            }
+            change_line(workspace, label, &line, |lines, at| lines.set(at, attribute, value.as_deref()))
+        }
+        LineRequest::Delete(line) => change_line(workspace, "Erase line", &line, DrawnLines::removed),
+        LineRequest::UseAsPath(line) => {
+            workspace.scene.lines_mut().select(Some(line));
+            use_as_path(workspace)
+        }
+    }
+}
+
+/// Adds a path along a stroke to the cast.
+fn draw_path(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> {
+    let is_smooth = stroke.corners.is_empty();
+    let points = match is_smooth {
+        true => path_points(&stroke.control, PATH_TOLERANCE.max(2.0 * stroke.unit)),
+        false => stroke.corners.clone(),
+    };
+    scene::add(workspace, &NewThing::DrawnPath(points_text(&points)?, is_smooth && points.len() > 2))
+}
+
+/// Adds a line to the project.
+fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> {
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let taken = |id: &str| scene.lines.as_ref().is_some_and(|lines| lines.called(id).is_some());
+    let id = (1_u32..).map(|number| format!("line-{number}")).find(|id| !taken(id))?;
+    let attributes = match stroke.on {
+        LineSurface::Ground => Vec::new(),
+        LineSurface::View => vec![("on".to_owned(), "view".to_owned())],
+    };
+    let line = NewLine { id: Some(id.clone()), points: stroke.control.clone(), attributes };
+    let effect = edit_lines(workspace, &scene, "Draw line", |lines| lines.added(&line));
+    if effect.is_some() {
+        workspace.scene.lines_mut().select(Some(id.into()));
+    }
+    effect
+}
+
+/// Removes the lines that are near one of these places, points from the top left of the viewport.
+fn erase(workspace: &mut Workspace, places: &[Vec2]) -> Option<Effect> {
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
+    let is_near = |line: &DrawnLine| {
+        let samples = line.samples();
+        let mut seen = samples.points().iter().filter_map(|point| view.to_screen(*point));
+        seen.any(|at| places.iter().any(|place| place.as_dvec2().distance(at) <= REACH))
+    };
+    let lines = scene.lines.as_ref()?;
+    // A line that moves is elsewhere.
+    let found: Vec<usize> = (0..lines.list().len())
+        .filter(|&at| lines.list()[at].of.as_deref().is_none_or(str::is_empty) && is_near(&lines.list()[at]))
+        .collect();
+    if found.is_empty() {
+        return None;
+    }
+    edit_lines(workspace, &scene, "Erase line", |lines| {
+        let all: Option<Vec<TextSplices>> = found.iter().map(|&at| lines.removed(at)).collect();
+        TextSplices::new(all?.iter().flat_map(|splices| splices.list().to_vec()).collect())
+    })
+}
+
+/// Changes the line with this name.
+fn change_line(
+    workspace: &mut Workspace,
+    label: &str,
+    name: &str,
+    change: impl FnOnce(&DrawnLines, usize) -> Option<TextSplices>,
+) -> Option<Effect> {
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    edit_lines(workspace, &scene, label, |lines| change(lines, line_named(lines, name)?))
+}
+
+/// Deletes the selected line.
+pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
+    match workspace.scene.lines().selected().map(Box::from) {
+        Some(line) => perform(workspace, LineRequest::Delete(line)),
+        None => {
+            workspace.say(MessageSeverity::Info, "No line is selected");
+            None
+        }
+    }
+}
+
+/// Returns the edit of the file of lines; a project without one gets it in the same step.
+fn edit_lines(
+    workspace: &mut Workspace,
+    scene: &SceneView,
+    label: &str,
+    change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
+) -> Option<Effect> {
+    match lines_edit(scene, label, change) {
+        Ok(edit) => Some(Effect::Change(Change::Edit(Edit::EditScript(edit), None))),
+        Err(reason) => {
+            workspace.say(MessageSeverity::Info, reason);
+            None
+        }
+    }
+}
+
+fn lines_edit(
+    scene: &SceneView,
+    label: &str,
+    change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
+) -> Result<EditScript, &'static str> {
+    let project =
+        scene.project.as_ref().ok_or("Lines belong to a project: File ▸ New project from this scene")?;
+    let refused = "The line cannot be written";
+    if let Some(name) = project.lines() {
+        let file = scene.texts.called(name).ok_or("The file of lines is missing")?;
+        let lines = DrawnLines::read(Arc::clone(&file.text)).map_err(|_| "The file of lines has errors")?;
+        let splices = change(&lines).ok_or(refused)?;
+        let edit = EditScript::of(&file.text, &splices, label);
+        return Ok(EditScript { text: Some(TextRef::Name(name.to_owned())), ..edit });
+    }
+    let main = scene.texts.list().first().ok_or("The project has no text")?;
+    if **project.tree().text() != *main.text {
+        return Err("The project has errors: correct it first");
+    }
+    let name = (1_u32..)
+        .map(
+            |number| {
+                if number == 1 { "drawn.lines.xml".to_owned() } else { format!("drawn-{number}.lines.xml") }
+            },
+        )
+        .find(|name| scene.texts.called(name).is_none())
+        .ok_or(refused)?;
+    let empty = DrawnLines::read(NO_LINES).map_err(|_| refused)?;
+    let text = change(&empty).ok_or(refused)?.apply(NO_LINES);
+    let place = match project.tree().elements().iter().rposition(|element| element.parent == Some(0)) {
+        Some(last) => ElementPlace::After(last),
+        None => ElementPlace::First(0),
+    };
+    let element = NewElement::new("lines").with("src", name.as_str());
+    let splices = insert(project.tree(), place, &element).ok_or(refused)?;
+    let of_project = EditScript::of(&main.text, &splices, label);
+    Ok(EditScript {
+        text: Some(TextRef::Name(name)),
+        create: true,
+        splices: vec![ScriptSplice { at: 0, old: String::new(), new: text }],
+        label: Some(label.to_owned()),
+        also: vec![EditScript { text: Some(TextRef::Name(main.name.to_string())), ..of_project }],
+    })
+}
+
+/// Adds a path along the selected line to the cast, and selects it.
+pub(in crate::panels) fn use_as_path(workspace: &mut Workspace) -> Option<Effect> {
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let selected = workspace.scene.lines().selected().map(str::to_owned);
+    let line = selected.and_then(|name| {
+        let lines = scene.lines.as_ref()?;
+        Some(lines.list()[line_named(lines, &name)?].id.as_deref().map(str::to_owned))
+    });
+    match line {
+        Some(Some(id)) => scene::add(workspace, &NewThing::LinePath(id)),
+        Some(None) => {
+            workspace.say(MessageSeverity::Info, "The line needs a name first: rename it in the list");
+            None
+        }
+        None => {
+            workspace.say(MessageSeverity::Info, "No line is selected");
+            None
+        }
+    }
+}
+
+/// Lets the selected role follow the selected path from the playhead on. Of several roles or paths, those that were selected last.
+pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect> {
+    let at = workspace.read().scene_time();
+    let selected = workspace.scene.things().to_vec();
+    gesture(workspace, "Add clip", |base| {
+        let found =
+            selected.iter().rev().filter_map(|id| base.plan.things().get(base.plan.thing_called(id)?));
+        let things: Vec<&PlannedThing> = found.collect();
+        let path = things.iter().find(|thing| thing.kind == "path");
+        let role = things.iter().find(|thing| matches!(thing.kind, "role" | "prop"));
+        let (Some(path), Some(role)) = (path, role) else {
+            return Err(GestureRefusal("Select a role and a path".to_owned()));
+        };
+        let takes = role.model.as_ref().map_or(&[][..], |model| model.takes());
+        let name = |take: &StageTake| take.name().to_owned();
+        let walks = takes.iter().map(name).find(|name| name.to_lowercase().contains("walk"));
+        follow_path(&base.scene(), &role.id, &path.id, walks.as_deref(), at)
+    })
+}
+
+/// Makes a project of the script that is open.
+pub(in crate::panels) fn project_from_scene(workspace: &mut Workspace) -> Option<Effect> {
+    let is_project = workspace.read().scene().is_some_and(|scene| scene.project.is_some());
+    let path = workspace.model.view().and_then(|view| view.file.path.clone());
+    match path.filter(|_| !is_project) {
+        Some(path) => Some(Effect::NewProject(path)),
+        None => {
+            let text =
+                if is_project { "The scene belongs to a project already" } else { "Save the scene first" };
+            workspace.say(MessageSeverity::Info, text);
+            None
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! The list of the drawn lines of a project: selected, renamed, colored, hidden, deleted.
+
+use super::name_field::{FieldEnd, typed_name};
+use crate::panels::context::PanelContext;
+use crate::panels::icons::Icon;
+use crate::panels::menu::submenu;
+use crate::panels::request::Request;
+use crate::panels::scene::{LineRequest, SceneRequest, line_name};
+use crate::panels::style::{GRID, ROW};
+use crate::panels::theme::Theme;
+use crate::panels::widgets;
+use dragonfly_anim::stage::line::DrawnLine;
+use egui::accesskit::Role;
+use egui::{Color32, Rect, RichText, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
+
+/// The colors that the menu of a line offers.
+const COLORS: [(&str, &str); 6] = [
+    ("Red", "#ff4040"),
+    ("Orange", "#ff9020"),
+    ("Yellow", "#ffe040"),
+    ("Green", "#40c060"),
+    ("Blue", "#4080ff"),
+    ("White", "#ffffff"),
+];
+
+/// The section of the list that has the lines.
+#[derive(Debug, Default)]
+pub(super) struct LineRows {
+    /// The line whose name is typed, and the new name.
+    typed: Option<(Box<str>, String)>,
+}
+
+impl LineRows {
+    /// Draws the heading and a row for each line; nothing where there is none.
+    pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some(lines) = context.scene().and_then(|scene| scene.lines.as_ref()) else { return };
+        if lines.list().is_empty() {
+            return;
+        }
+        ui.add_space(GRID);
+        ui.horizontal(|ui| {
+            ui.add_space(3.0 * GRID);
+            ui.label(RichText::new("Lines").small().color(Theme::of(ui).weak));
+        });
+        for (index, line) in lines.list().iter().enumerate() {
+            let name = line_name(index, line);
+            match &mut self.typed {
+                Some((of, text)) if *of == name => match typed_name(ui, "Name of the line", text) {
+                    FieldEnd::Open => {}
+                    FieldEnd::Kept => {
+                        let new = text.trim().to_owned();
+                        if !new.is_empty() && *new != *name {
+                            send(requests, LineRequest::Set(name, "id", Some(new)));
+                        }
+                        self.typed = None;
+                    }
+                    FieldEnd::GivenUp => self.typed = None,
+                },
+                _ => self.row(ui, context, (&name, line), requests),
+            }
+        }
+    }
+
+    fn row(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        (name, line): (&str, &DrawnLine),
+        requests: &mut Vec<Request>,
+    ) {
+        let (theme, editing) = (Theme::of(ui), context.scene_editing.lines());
+        let (is_selected, is_hidden) = (editing.selected() == Some(name), editing.is_hidden(name));
+        let (rect, response) = widgets::row(ui, &format!("{name}, line"), is_selected, false);
+        let mark = Rect::from_center_size(pos2(rect.left() + 22.0, rect.center().y), vec2(16.0, 16.0));
+        let [red, green, blue] = line.color;
+        Icon::Pencil.paint(ui.painter(), mark, Color32::from_rgb(red, green, blue));
+        let text = Rect::from_min_max(
+            pos2(rect.left() + 36.0, rect.top()),
+            pos2(rect.right() - 34.0, rect.bottom()),
+        );
+        let shown = widgets::cut_in_middle(ui, name, text.width(), &TextStyle::Body);
+        let color = match (is_selected, is_hidden) {
+            (true, _) => theme.accent,
+            (false, true) => theme.faint,
+            (false, false) => theme.text,
+        };
+        widgets::text_in(ui, text, &shown, &TextStyle::Body, color);
+        let place = Rect::from_center_size(pos2(rect.right() - 16.0, rect.center().y), vec2(20.0, ROW));
+        let button = ui.interact(place, response.id.with("hide"), Sense::click());
+        let verb = if is_hidden { "Show" } else { "Hide" };
+        button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {name}")));
+        if is_hidden || ui.rect_contains_pointer(rect) || button.has_focus() {
+            let icon = if is_hidden { Icon::Hidden } else { Icon::Shown };
+            icon.paint(ui.painter(), place, if button.hovered() { theme.text } else { theme.faint });
+            widgets::focus_ring(ui, &button, place);
+        }
+        if button.clicked() {
+            send(requests, LineRequest::Hide(name.into(), !is_hidden));
+        }
+        response.context_menu(|ui| self.menu(ui, name, requests));
+        if response.double_clicked() {
+            self.typed = Some((name.into(), name.to_owned()));
+        }
+        if response.clicked() || response.secondary_clicked() {
+            send(requests, LineRequest::Select(Some(name.into())));
+        }
+        let length = line.samples().length();
+        response.on_hover_text(format!("line {name}, {length:.2} m\nDouble-click: rename"));
+    }
+
+    fn menu(&mut self, ui: &mut Ui, name: &str, requests: &mut Vec<Request>) {
+        let entry = |ui: &mut Ui, title: &str| {
+            let is_clicked = ui.add(egui::Button::new(title).frame_when_inactive(false)).clicked();
+            if is_clicked {
+                ui.close();
+            }
+            is_clicked
+        };
+        if entry(ui, "Use as path") {
+            send(requests, LineRequest::UseAsPath(name.into()));
+        }
+        if entry(ui, "Rename") {
+            self.typed = Some((name.into(), name.to_owned()));
+        }
+        submenu(ui, "Color", |ui| {
+            for (title, color) in COLORS {
+                if entry(ui, title) {
+                    send(requests, LineRequest::Set(name.into(), "color", Some(color.to_owned())));
+                }
+            }
+        });
+        if entry(ui, "Delete") {
+            send(requests, LineRequest::Delete(name.into()));
+        }
+    }
+}
+
+fn send(requests: &mut Vec<Request>, request: LineRequest) {
+    requests.push(Request::Scene(SceneRequest::Line(request)));
+}
