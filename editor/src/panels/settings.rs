@@ -41,6 +41,10 @@ pub struct LookSettings {
     pub shading: Shading,
     /// Whether the surface is drawn.
     pub surface: bool,
+    /// Whether cameras, lights, marks and paths of a scene are drawn.
+    pub helpers: bool,
+    /// Whether the image of the camera through which the viewport looks has thirds and safe areas.
+    pub image_guides: bool,
 }
 
 impl Default for LookSettings {
@@ -54,6 +58,8 @@ impl Default for LookSettings {
             bones_in_front: true,
             shading: Shading::default(),
             surface: true,
+            helpers: true,
+            image_guides: true,
         }
     }
 }

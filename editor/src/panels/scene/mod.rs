@@ -19,6 +19,7 @@ pub mod script;
 mod template;
 mod thing_icon;
 pub mod timeline;
+mod viewport;
 
 pub use base::SceneBase;
 pub use editing::SceneEditing;
@@ -26,3 +27,4 @@ pub use follow::follow_action;
 pub use new_thing::{NewThing, new_thing_text};
 pub use request::{SceneRequest, ScriptChange};
 pub use template::{duel_text, free_name};
+pub use viewport::{SceneViewport, WaitingTitle};

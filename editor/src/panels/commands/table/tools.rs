@@ -12,9 +12,9 @@ commands! {
     ToolMove => When::Always, "Move", [key(NONE, Key::W)], "Shows the gizmo that moves the selected bones", |w| { w.settings.tools.tool = Some(Tool::Move); None };
     ToolRotate => When::Always, "Rotate", [key(NONE, Key::E)], "Shows the gizmo that rotates the selected bones", |w| { w.settings.tools.tool = Some(Tool::Rotate); None };
     ToolScale => When::Always, "Scale", [key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { w.settings.tools.tool = Some(Tool::Scale); None };
-    MoveNow => When::BoneInTake, "Move with the mouse", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };
-    RotateNow => When::BoneInTake, "Rotate with the mouse", [], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None };
-    ScaleNow => When::BoneInTake, "Scale with the mouse", [], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None };
+    MoveNow => When::Movable, "Move with the mouse", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };
+    RotateNow => When::Movable, "Rotate with the mouse", [], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None };
+    ScaleNow => When::Movable, "Scale with the mouse", [], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None };
     NextSpace => When::Always, "Next gizmo axes", [key(NONE, Key::T)], "Switches the gizmo between local, parent, world and view axes", |w| { tools::next_space(w); None };
     SpaceLocal => When::Always, "Local axes", [], "Aligns the gizmo with the bone", |w| { w.settings.tools.space = GizmoSpace::Local; None };
     SpaceParent => When::Always, "Parent axes", [], "Aligns the gizmo with the bone's parent", |w| { w.settings.tools.space = GizmoSpace::Parent; None };
