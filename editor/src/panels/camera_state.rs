@@ -12,7 +12,7 @@ pub(super) struct CameraState {
     camera: Camera,
     /// The camera of a scene through which the viewport looks.
     through: ThroughCamera,
-    /// What that camera sees now; `None` for the free one.
+    /// The view of that camera at the time shown; `None` for the free one.
     seen: Option<Camera>,
     /// Whether moving the view moves the camera of the scene.
     is_attached: bool,

@@ -72,7 +72,8 @@ impl SceneViewport {
         frames
     }
 
-    /// Returns the thing that a click at `at` means, of those there, nearest first: for a click at the same place the one behind the last.
+    /// Returns the thing that a click at `at` selects, of the things there, nearest first. Another click at the same place selects the
+    /// next one in that order.
     pub(in crate::panels) fn clicked(&mut self, at: Pos2, things: &[Arc<str>]) -> Option<Arc<str>> {
         let before = self.last.as_ref().filter(|(place, _)| place.distance(at) <= SAME);
         let behind = before.and_then(|(_, last)| {
