@@ -79,6 +79,8 @@ pub struct Look {
     pub through: ThroughCamera,
     /// Whether cameras, lights, marks and paths of a script are drawn.
     pub helpers: bool,
+    /// Ids of the things of a script that are neither drawn nor picked.
+    pub hidden_things: Arc<[Arc<str>]>,
 }
 
 impl Default for Look {
@@ -105,6 +107,7 @@ impl Default for Look {
             handles: RoleColors::default(),
             through: ThroughCamera::Free,
             helpers: false,
+            hidden_things: Arc::default(),
         }
     }
 }

@@ -76,7 +76,8 @@ impl Scene {
     /// model, as long as it has a plan.
     pub fn show(&mut self, view: &View) {
         let before = self.cast.take();
-        self.cast = view.scene.as_deref().and_then(|scene| PosedScene::new(scene, before));
+        let hidden = &self.look.hidden_things;
+        self.cast = view.scene.as_deref().and_then(|scene| PosedScene::without(scene, hidden, before));
         match &mut self.model {
             Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view, &self.still),
             _ => {
@@ -87,6 +88,15 @@ impl Scene {
             }
         }
         self.shown = Some(view.clone());
+    }
+
+    /// Sets the look of the viewport.
+    pub fn set_look(&mut self, look: Look) {
+        let hides_others = look.hidden_things != self.look.hidden_things;
+        self.look = look;
+        if hides_others && let Some(view) = self.shown.take() {
+            self.show(&view);
+        }
     }
 
     /// Shows these bones at rest, and all others animated.

@@ -215,7 +215,7 @@ impl Graphics {
 
     fn set_look(stage: &mut RenderStage, look: Look) {
         if stage.scene.look != look {
-            stage.scene.look = look;
+            stage.scene.set_look(look);
             stage.touch_scene();
         }
     }

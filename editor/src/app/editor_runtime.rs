@@ -263,15 +263,26 @@ impl BaseRuntime for EditorRuntime {
                 interface.set_max_texture_side(max_texture_side);
                 interface.state.window_mut().set_device(DeviceStatus::Ready { adapter });
             }
-            GraphicsReply::Picked { bone, ticket, .. } => {
-                // A pointer that stays on its bone changes nothing, so nothing is drawn.
-                if running.hover.answered(ticket) && !interface.state.set_pointed(bone) {
-                    return;
+            GraphicsReply::Picked { bone, thing, ticket } => {
+                // A pointer that stays where it is changes nothing, so nothing is drawn.
+                if running.hover.answered(ticket) {
+                    let thing = interface.state.set_pointed_thing(thing.map(|thing| thing.thing));
+                    if !interface.state.set_pointed(bone) && !thing {
+                        return;
+                    }
                 }
             }
-            GraphicsReply::PickedAll { bones, ticket, .. } => {
+            GraphicsReply::PickedAll { bones, things, ticket } => {
+                let is_scene = interface.state.read().scene().is_some();
+                let things: Vec<Arc<str>> = things.into_iter().map(|thing| thing.thing).collect();
                 // An answer to an older question is not about the newest click.
                 match running.asked.take_if(|asked| asked.0 == ticket) {
+                    Some((_, Asked::Click(at, choice))) if is_scene => {
+                        interface.state.thing_picked(at, &things, choice);
+                    }
+                    Some((_, Asked::Region(choice))) if is_scene => {
+                        interface.state.things_caught(&things, choice)
+                    }
                     Some((_, Asked::Click(at, choice))) => interface.state.picked(at, &bones, choice),
                     Some((_, Asked::Region(choice))) => interface.state.caught(&bones, choice),
                     None => return,

@@ -9,7 +9,7 @@ use dragonfly_picture::gizmo::RoleColors;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
     AppearanceSender, ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook,
-    GraphicsHandle, IkAppearance, LineAppearance, Look, PathAppearance, ReferenceAppearance, ThroughCamera,
+    GraphicsHandle, IkAppearance, LineAppearance, Look, PathAppearance, ReferenceAppearance, ThingAppearance,
 };
 use std::sync::Arc;
 
@@ -20,6 +20,7 @@ pub struct GraphicsSync {
     camera: Option<Camera>,
     look: Option<Look>,
     hidden: Arc<HiddenBones>,
+    hidden_things: Arc<[Arc<str>]>,
     /// Version of the flags of bones.
     flags: u64,
     appearances: AppearanceSender,
@@ -58,7 +59,11 @@ impl GraphicsSync {
             self.hidden = Arc::new(state.hidden.clone());
         }
         let hidden = Arc::clone(&self.hidden);
-        let look = look(state, selected, hidden, pixels_per_point, dark);
+        if !self.hidden_things.iter().map(|id| &**id).eq(state.scene_editing.hidden()) {
+            self.hidden_things = state.scene_editing.hidden().map(Arc::from).collect();
+        }
+        let hidden_things = Arc::clone(&self.hidden_things);
+        let look = look(state, selected, (hidden, hidden_things), pixels_per_point, dark);
         if self.look.as_ref() == Some(&look) {
             self.spare = look.selected;
         } else {
@@ -80,13 +85,21 @@ impl GraphicsSync {
             });
         });
         sender.update(graphics, |GizmoDragAppearance(drag)| {
-            if gizmo.is_dragging() {
+            // The things of a scene are no bones of the model that is drawn.
+            if gizmo.is_dragging() || state.scene().is_some() && state.settings.tools.tool.is_some() {
                 let shape = drag.get_or_insert_default();
                 shape.clear();
                 gizmo.present(shape);
             } else {
                 *drag = None;
             }
+        });
+        sender.update(graphics, |things: &mut ThingAppearance| {
+            let selected = state.scene_editing.things();
+            if !things.selected.iter().map(|id| &**id).eq(selected.iter().map(|id| &**id)) {
+                things.selected = selected.iter().map(|id| Arc::from(&**id)).collect();
+            }
+            things.hovered = state.stage.hovered().cloned();
         });
         sender.update(graphics, |path: &mut PathAppearance| {
             path.path = state.tools.path().look().cloned();
@@ -117,7 +130,7 @@ impl GraphicsSync {
 fn look(
     state: &PanelContext<'_>,
     selected: Vec<BoneIndex>,
-    hidden: Arc<HiddenBones>,
+    (hidden, hidden_things): (Arc<HiddenBones>, Arc<[Arc<str>]>),
     pixels_per_point: f32,
     dark: bool,
 ) -> Look {
@@ -149,7 +162,8 @@ fn look(
         accent: linear(theme.accent),
         hidden,
         handles: RoleColors::new(|role| linear(theme.role(role))),
-        through: ThroughCamera::Free,
-        helpers: false,
+        through: state.through.clone(),
+        helpers: state.scene().is_some() && settings.helpers,
+        hidden_things,
     }
 }

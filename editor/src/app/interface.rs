@@ -17,6 +17,7 @@ use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::BoneSelection;
 use dragonfly_document::edit::Edit;
 use dragonfly_document::{DocumentMessage, FaultInjection, FaultPoint};
+use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{GraphicsHandle, PanelsFrame};
 use dragonfly_runtime::{Address, Context, Worker};
@@ -487,6 +488,8 @@ struct Redrawn {
     settings: Settings,
     overlay: Option<Overlay>,
     viewport: egui::Rect,
+    camera: Camera,
+    things: Vec<Box<str>>,
     questions: VecDeque<(u64, Question)>,
 }
 
@@ -500,6 +503,8 @@ impl Redrawn {
             settings: panels.settings.clone(),
             overlay: panels.overlay,
             viewport: panels.viewport,
+            camera: panels.camera,
+            things: panels.scene_editing.things().to_vec(),
             questions: panels.prompts.questions().clone(),
         }
     }

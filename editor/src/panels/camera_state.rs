@@ -1,5 +1,6 @@
 //! The camera and the rectangle of the viewport.
 
+use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::camera::Camera;
 use egui::Rect;
 use glam::Vec3;
@@ -7,7 +8,16 @@ use glam::Vec3;
 /// The camera and the viewport that it looks into.
 #[derive(Debug)]
 pub(super) struct CameraState {
+    /// The free camera, which the user moves.
     camera: Camera,
+    /// The camera of a scene through which the viewport looks.
+    through: ThroughCamera,
+    /// The view of that camera at the time shown; `None` for the free one.
+    seen: Option<Camera>,
+    /// Whether moving the view moves the camera of the scene.
+    is_attached: bool,
+    /// The view that the user gave an attached camera since the last call of [`Self::take_moved`].
+    moved: Option<Camera>,
     /// The viewport, points.
     viewport: Rect,
     /// Toolbars and cards over the viewport, points.
@@ -18,6 +28,10 @@ impl Default for CameraState {
     fn default() -> Self {
         Self {
             camera: Camera::default(),
+            through: ThroughCamera::Free,
+            seen: None,
+            is_attached: false,
+            moved: None,
             viewport: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
             shields: Vec::new(),
         }
@@ -25,19 +39,70 @@ impl Default for CameraState {
 }
 
 impl CameraState {
-    /// Returns the camera.
+    /// Returns the camera of the viewport: the free one, or the one of a scene.
     pub(super) fn camera(&self) -> &Camera {
-        &self.camera
+        self.seen.as_ref().unwrap_or(&self.camera)
     }
 
-    /// Returns the camera for a command that moves it.
+    /// Returns the free camera for a command that moves it. It continues where the camera of a scene was.
     pub(super) fn camera_mut(&mut self) -> &mut Camera {
+        self.leave();
         &mut self.camera
     }
 
-    /// Replaces the camera.
+    /// Moves the camera. A camera of a scene is left, unless it is attached to the view.
     pub(super) fn set_camera(&mut self, camera: Camera) {
-        self.camera = camera;
+        if *self.camera() == camera {
+            return;
+        }
+        if self.is_attached && self.seen.is_some() {
+            (self.seen, self.moved) = (Some(camera), Some(camera));
+            return;
+        }
+        let lens = self.seen.map(|seen| seen.field_of_view);
+        self.leave();
+        match lens {
+            Some(lens) => self.camera = freed(Camera { field_of_view: lens, ..camera }),
+            None => self.camera = camera,
+        }
+    }
+
+    /// Returns the camera of a scene through which the viewport looks.
+    pub(super) fn through(&self) -> &ThroughCamera {
+        &self.through
+    }
+
+    /// Looks through a camera of a scene, or through the free one, which is where it was.
+    pub(super) fn set_through(&mut self, through: ThroughCamera) {
+        (self.through, self.seen, self.moved) = (through, None, None);
+    }
+
+    /// Returns whether moving the view moves the camera of the scene.
+    pub(super) fn is_attached(&self) -> bool {
+        self.is_attached
+    }
+
+    /// Sets whether moving the view moves the camera of the scene.
+    pub(super) fn attach(&mut self, is_attached: bool) {
+        self.is_attached = is_attached;
+    }
+
+    /// Sets what the camera of the scene sees now.
+    pub(super) fn set_seen(&mut self, seen: Option<Camera>) {
+        self.seen = seen;
+    }
+
+    /// Returns the view that the user gave an attached camera since the last call.
+    pub(super) fn take_moved(&mut self) -> Option<Camera> {
+        self.moved.take()
+    }
+
+    /// Leaves the camera of a scene: the free one continues where it is.
+    fn leave(&mut self) {
+        if let Some(seen) = self.seen.take() {
+            self.camera = freed(seen);
+        }
+        (self.through, self.moved) = (ThroughCamera::Free, None);
     }
 
     /// Returns the rectangle of the viewport, points.
@@ -72,4 +137,14 @@ impl CameraState {
         let aspect = self.aspect();
         self.camera.frame_box(min, max, aspect);
     }
+}
+
+/// Returns the free camera that shows what a camera of a scene sees: upright, with the usual lens, from a distance at which the target has
+/// the same size.
+fn freed(seen: Camera) -> Camera {
+    let field_of_view = Camera::default().field_of_view;
+    let ratio = (seen.field_of_view / 2.0).tan() / (field_of_view / 2.0).tan();
+    let mut camera = Camera { roll: 0.0, field_of_view, ..seen };
+    camera.dolly(ratio);
+    camera
 }

@@ -7,13 +7,14 @@ use super::edit_scope_menu;
 use super::icons::Icon;
 use super::keys_menu;
 use super::request::Request;
+use super::scene::SceneRequest;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets::{disabled_hint_beside, hint_beside};
 use crate::control::line::LineUse;
 use dragonfly_document::Source;
-use dragonfly_picture::{BoneLook, Shading};
+use dragonfly_picture::{BoneLook, Shading, ThroughCamera};
 use egui::{
     Align, Button, Layout, MenuBar, Rect, RichText, ScrollArea, Slider, Stroke, TextWrapMode, Ui, pos2, vec2,
 };
@@ -52,6 +53,7 @@ pub fn show(
         }
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
+        back(ui, context, requests);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(2.0 * GRID);
             let hint = format!("Find a command  {}", commands::shortcut_text(ui.ctx(), Id::Palette));
@@ -296,8 +298,14 @@ fn view(
         item(ui, context, Id::ResetLayout, false, requests);
     });
     submenu(ui, "Camera", |ui| list(ui, context, &[Category::Camera], requests));
+    if context.scene().is_some() {
+        submenu(ui, "Look through", |ui| look_through(ui, context, requests));
+    }
     ui.separator();
     let look = &context.settings.look;
+    if context.scene().is_some() {
+        item(ui, context, Id::ToggleHelpers, look.helpers, requests);
+    }
     item(ui, context, Id::ToggleGrid, look.grid, requests);
     item(ui, context, Id::ToggleContactShadow, look.contact_shadow, requests);
     item(ui, context, Id::ToggleSurface, look.surface, requests);
@@ -348,6 +356,44 @@ fn view(
     item(ui, context, Id::FullScreen, context.window.is_full_screen(), requests);
     if matches!(context.window.device(), super::window_status::DeviceStatus::Paused { .. }) {
         item(ui, context, Id::RetryDevice, false, requests);
+    }
+}
+
+/// Draws the choice of the camera through which the viewport looks at a scene.
+pub(super) fn look_through(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let through = context.through;
+    item(ui, context, Id::LookFreely, *through == ThroughCamera::Free, requests);
+    item(ui, context, Id::LookThroughShot, *through == ThroughCamera::Shot, requests);
+    let plan = context.scene().and_then(|scene| scene.plan.as_ref());
+    let things = plan.into_iter().flat_map(|plan| plan.things());
+    for camera in things.filter(|thing| thing.kind == "camera") {
+        let is_seen = matches!(through, ThroughCamera::Of(id) if **id == *camera.id);
+        let color = if is_seen { Theme::of(ui).accent } else { Theme::of(ui).text };
+        let title = RichText::new(&*camera.id).color(color);
+        let response = ui
+            .scope(|ui| {
+                ui.spacing_mut().button_padding.x += GUTTER;
+                ui.add(Button::new(title).frame_when_inactive(false))
+            })
+            .inner;
+        if response.clicked() {
+            let through = ThroughCamera::Of(std::sync::Arc::from(&*camera.id));
+            requests.push(Request::Scene(SceneRequest::Through(through)));
+            ui.close();
+        }
+    }
+    ui.separator();
+    item(ui, context, Id::AttachCamera, context.is_camera_attached, requests);
+    item(ui, context, Id::ToggleImageGuides, context.settings.look.image_guides, requests);
+}
+
+/// Draws the button that shows the scene again whose model is edited.
+fn back(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let Some(waiting) = context.stage.waiting().filter(|waiting| waiting.is_shown) else { return };
+    let title = RichText::new(format!("\u{2190} Back to {}", waiting.scene)).color(Theme::of(ui).accent);
+    let response = ui.add(Button::new(title).frame_when_inactive(false)).accessible_name("Back to scene");
+    if response.on_hover_text(commands::tooltip(ui.ctx(), Id::BackToScene)).clicked() {
+        requests.push(Request::Command(Id::BackToScene));
     }
 }
 

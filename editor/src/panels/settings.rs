@@ -43,6 +43,10 @@ pub struct LookSettings {
     pub surface: bool,
     /// Whether drawn lines and paths of scenes are shown.
     pub lines: bool,
+    /// Whether cameras, lights, marks and paths of a scene are drawn.
+    pub helpers: bool,
+    /// Whether the image of the camera through which the viewport looks has thirds and safe areas.
+    pub image_guides: bool,
 }
 
 impl Default for LookSettings {
@@ -57,6 +61,8 @@ impl Default for LookSettings {
             shading: Shading::default(),
             surface: true,
             lines: true,
+            helpers: true,
+            image_guides: true,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The state of the panels, as the program around them uses it: requests go in, effects come out, and [`State::read`] gives
 //! what is shown.
 
-use super::actions::{bones, compare, drags, execute, feed, files, input, playback, show};
+use super::actions::{bones, compare, drags, execute, feed, files, input, playback, scene_view, show};
 use super::context::PanelContext;
 use super::export::AnsweredExport;
 use super::open_model::Loading;
@@ -132,6 +132,21 @@ impl State {
     /// Sets the bone under the pointer in the viewport. Returns whether it changed.
     pub fn set_pointed(&mut self, bone: Option<BoneIndex>) -> bool {
         self.workspace.bones.set_pointed(bone)
+    }
+
+    /// Selects one of the things of a scene under a click, the nearest first.
+    pub fn thing_picked(&mut self, at: Pos2, things: &[Arc<str>], choice: Choice) {
+        scene_view::picked(&mut self.workspace, at, things, choice);
+    }
+
+    /// Selects the things of a scene inside a box or lasso.
+    pub fn things_caught(&mut self, things: &[Arc<str>], choice: Choice) {
+        scene_view::caught(&mut self.workspace, things, choice);
+    }
+
+    /// Sets the thing of a scene under the pointer in the viewport. Returns whether it changed.
+    pub fn set_pointed_thing(&mut self, thing: Option<Arc<str>>) -> bool {
+        scene_view::point(&mut self.workspace, thing)
     }
 
     /// Shows the model whose takes are wanted, in the dialog for retargeting.

@@ -122,9 +122,8 @@ impl ToolState {
         editable: bool,
         path_editable: bool,
     ) {
-        if self.placement.as_ref() == Some(&now) || self.controls.edits() {
-            self.spare = now.bones;
-            return;
+        if !self.is_placed_elsewhere(&now) {
+            return self.reuse(now);
         }
         // The tool that only selects has no handles.
         let bones = if now.tool.is_some() { &now.bones[..] } else { &[] };
@@ -135,8 +134,38 @@ impl ToolState {
             let animation = posed.update(view, now.take, now.time);
             PosedSkeleton { skeleton, poses: animation.poses(), to_root: animation.to_root() }
         };
+        let scene = ToolScene {
+            pose,
+            bones,
+            take: now.take,
+            time: now.time,
+            editable,
+            tool: now.tool,
+            settings: now.settings,
+        };
+        self.controls.show(&scene);
+        self.note_placement(now, path_editable);
+    }
+
+    /// Returns whether the gizmo has to be placed again. A drag keeps its place.
+    pub(super) fn is_placed_elsewhere(&self, now: &PlacedGizmo) -> bool {
+        self.placement.as_ref() != Some(now) && !self.controls.edits()
+    }
+
+    /// Takes back the memory of a placement that is not needed.
+    pub(super) fn reuse(&mut self, placement: PlacedGizmo) {
+        self.spare = placement.bones;
+    }
+
+    /// Places the gizmo at `now` in a pose that is no pose of the model.
+    pub(super) fn place_gizmo(&mut self, pose: PosedSkeleton<'_>, now: PlacedGizmo, editable: bool) {
+        let bones = if now.tool.is_some() { &now.bones[..] } else { &[] };
         let (take, time, tool, settings) = (now.take, now.time, now.tool, now.settings);
         self.controls.show(&ToolScene { pose, bones, take, time, editable, tool, settings });
+        self.note_placement(now, false);
+    }
+
+    fn note_placement(&mut self, now: PlacedGizmo, path_editable: bool) {
         let pivot = self.controls.gizmo().gizmo.pivot();
         let path = self.controls.path_mut();
         (path.editable, path.gizmo) = (path_editable, pivot);

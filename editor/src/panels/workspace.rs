@@ -21,7 +21,7 @@ use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
-use super::scene::SceneEditing;
+use super::scene::{SceneEditing, SceneViewport};
 use super::selected_bones::SelectedBones;
 use super::selection_sets::SelectionSets;
 use super::selection_steps::{SelectionState, SelectionSteps};
@@ -94,6 +94,8 @@ pub(super) struct Workspace {
     pub(super) export: Option<AnsweredExport>,
     /// The scene that is open.
     pub(super) scene: SceneEditing,
+    /// The scene in the viewport.
+    pub(super) stage: SceneViewport,
     /// The pose library.
     pub(super) poses: PoseLibrary,
     /// The reference picture.
@@ -143,6 +145,7 @@ impl Workspace {
             retarget: RetargetSource::default(),
             export: None,
             scene: SceneEditing::default(),
+            stage: SceneViewport::default(),
             poses: PoseLibrary::default(),
             reference: ReferenceTrack::default(),
             sound: SoundTrack::default(),
@@ -190,6 +193,9 @@ impl Workspace {
             dragging: &self.dragging,
             settings: &self.settings,
             scene_editing: &self.scene,
+            stage: &self.stage,
+            through: self.camera.through(),
+            is_camera_attached: self.camera.is_attached(),
             poses: &self.poses,
             reference: &self.reference,
             sound: &self.sound,

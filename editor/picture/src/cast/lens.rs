@@ -10,7 +10,7 @@ const HALF_IMAGE: f32 = 18.0;
 
 /// Returns the camera of a viewport that shows what `seen` sees in an image with the ratio `image` of width to height. A viewport with
 /// another ratio shows all of that, and more above and below or at the sides. `bounds` are those of the scene.
-pub(super) fn camera(seen: &StageCamera, image: f32, viewport: f32, bounds: &Sphere) -> Camera {
+pub fn camera(seen: &StageCamera, image: f32, viewport: f32, bounds: &Sphere) -> Camera {
     let [right, back] = [Vec3::X, Vec3::Z].map(|axis| seen.rotation * axis);
     let pitch = back.y.clamp(-1.0, 1.0).asin();
     let level = Vec3::new(back.x, 0.0, back.z);

@@ -9,6 +9,7 @@ mod light;
 mod pick;
 mod placeholder;
 
+pub use lens::camera as viewport_camera;
 pub use light::{LightKind, SceneLight};
 pub use pick::PickedThing;
 pub(crate) use placeholder::made_model;
@@ -64,6 +65,8 @@ pub struct PosedScene {
     groups: Vec<CastGroup>,
     /// For each thing; `None` without anything to draw.
     members: Vec<Option<CastMember>>,
+    /// For each thing: whether it is neither drawn nor picked.
+    hidden: Vec<bool>,
     /// Boxes around the things in the scene; empty without anything to draw.
     boxes: Vec<AxisBox>,
     bounds: Bounds,
@@ -80,10 +83,20 @@ pub struct PosedScene {
 impl PosedScene {
     /// Returns the scene of `view` before its first time; `None` without a plan. What it has in common with the scene shown `before` is kept.
     pub fn new(view: &SceneView, before: Option<Self>) -> Option<Self> {
+        Self::without(view, &[], before)
+    }
+
+    /// Does the same as [`Self::new`], and neither draws nor picks the things with the ids `hidden`.
+    pub fn without(view: &SceneView, hidden: &[Arc<str>], before: Option<Self>) -> Option<Self> {
         let plan = Arc::clone(view.plan.as_ref()?);
+        let is_hidden = |thing: &PlannedThing| hidden.iter().any(|id| **id == *thing.id);
+        let hidden: Vec<bool> = plan.things().iter().map(is_hidden).collect();
         let (mut old_groups, mut placeholders) =
             before.map_or_else(Default::default, |before| (before.groups, before.placeholders));
-        let drawn = models(view, &plan, &mut placeholders);
+        let mut drawn = models(view, &plan, &mut placeholders);
+        for (drawn, _) in drawn.iter_mut().zip(&hidden).filter(|(_, hidden)| **hidden) {
+            *drawn = None;
+        }
         let mut groups: Vec<(Arc<LoadedModel>, usize)> = Vec::new();
         let mut index: HashMap<*const LoadedModel, usize> = HashMap::new();
         let members: Vec<Option<CastMember>> = drawn
@@ -119,6 +132,7 @@ impl PosedScene {
             state: plan.new_scene(),
             boxes: vec![AxisBox::EMPTY; members.len()],
             members,
+            hidden,
             groups,
             bounds: Bounds::default(),
             lights: light::of_script(view, &plan),
@@ -244,6 +258,11 @@ impl PosedScene {
     /// The box around a thing at the time computed last; empty without anything to draw, and past the end.
     pub fn box_of(&self, thing: usize) -> AxisBox {
         self.boxes.get(thing).copied().unwrap_or(AxisBox::EMPTY)
+    }
+
+    /// Returns whether a thing is hidden: neither drawn nor picked.
+    pub fn is_hidden(&self, thing: usize) -> bool {
+        self.hidden.get(thing).copied().unwrap_or(false)
     }
 
     /// The camera of the script through which `through` looks; `None` for the free one.

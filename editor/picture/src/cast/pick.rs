@@ -78,14 +78,14 @@ impl PosedScene {
     }
 
     /// Returns the middle of what is drawn of a thing, or its place without anything to draw.
-    pub(crate) fn middle_of(&self, thing: usize) -> Vec3 {
+    pub fn middle_of(&self, thing: usize) -> Vec3 {
         let around = self.box_of(thing);
         if around.is_empty() { self.state.things[thing].transform.translation } else { around.center() }
     }
 
-    /// Returns whether a thing has a place in the scene: everything but paths.
-    pub(crate) fn has_place(&self, thing: usize) -> bool {
-        self.plan.things()[thing].path.is_none()
+    /// Returns whether a thing has a place in the scene: everything but paths, and what is hidden.
+    pub fn has_place(&self, thing: usize) -> bool {
+        self.plan.things()[thing].path.is_none() && !self.is_hidden(thing)
     }
 
     /// Returns whether something is drawn of a thing.

@@ -52,7 +52,7 @@ impl GraphicComponent for CastGraphic {
         };
         for (thing, planned) in cast.plan().things().iter().enumerate() {
             let role = role_of(&planned.id);
-            if frame.look.helpers {
+            if frame.look.helpers && !cast.is_hidden(thing) {
                 draw(cast, thing, role.unwrap_or(GizmoRole::View), shape);
             }
             if let Some(role) = role.filter(|_| cast.has_place(thing)) {

@@ -67,12 +67,12 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::LengthUnit(meters) => workspace.unit.choose(meters),
         Request::Scale(scale) => look::set_scale(workspace, scale),
         Request::Keys(keys) => workspace.settings.keys = keys,
-        Request::Camera(camera) => workspace.camera.set_camera(camera),
+        Request::Camera(camera) => return framing::move_camera(workspace, camera),
         Request::Viewport(rect) => framing::set_viewport(workspace, rect),
         Request::Ghosts(ghosts) => workspace.settings.tools.ghosts = ghosts.sanitized(),
         Request::Falloff(falloff) => scope::set_falloff(workspace, falloff),
         Request::Shields(shields) => framing::set_shields(workspace, shields),
-        Request::Wheel(by) => framing::wheel(workspace, by),
+        Request::Wheel(by) => return framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),
         Request::Open(Source::File(file)) if workspace.model.view().is_some() && is_sound(&file) => {
             workspace.sound.set(SoundSettings { file, ..SoundSettings::default() });

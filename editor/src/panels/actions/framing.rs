@@ -1,9 +1,12 @@
 //! The camera: framing the model or a part of it, and the rectangle of the viewport.
 
+use super::{scene_camera, scene_view};
 use crate::control::{Area, InputEvent};
+use crate::panels::request::Effect;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_picture::camera::Camera;
 use egui::{Pos2, Rect};
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -45,6 +48,9 @@ fn figure_box(workspace: &mut Workspace) -> Option<[Vec3; 2]> {
 
 /// Frames the model in the pose at the time shown, which may be larger than the rest pose.
 pub(in crate::panels) fn frame_shown(workspace: &mut Workspace) {
+    if scene_view::frame_all(workspace) {
+        return;
+    }
     let Some(view) = workspace.model.view() else { return };
     let (take, time) = (workspace.player.take(), workspace.player.time());
     let poses = workspace.posed.update(view, take, time).poses();
@@ -60,6 +66,9 @@ pub(in crate::panels) fn frame_shown(workspace: &mut Workspace) {
 
 /// Frames the active bone and its children, or the model if no bone is selected.
 pub(in crate::panels) fn frame_selected(workspace: &mut Workspace) {
+    if scene_view::frame_selected(workspace) {
+        return;
+    }
     let (Some(view), Some(active)) = (workspace.model.view(), workspace.bones.active()) else {
         return frame_shown(workspace);
     };
@@ -79,9 +88,17 @@ pub(in crate::panels) fn frame_selected(workspace: &mut Workspace) {
 }
 
 /// Zooms by the wheel, or by two fingers: points, positive is nearer.
-pub(in crate::panels) fn wheel(workspace: &mut Workspace, by: f32) {
+pub(in crate::panels) fn wheel(workspace: &mut Workspace, by: f32) -> Option<Effect> {
     workspace.tools.input(InputEvent::Wheel(Vec2::new(0.0, by)), workspace.camera.camera());
-    workspace.camera.set_camera(workspace.tools.camera());
+    move_camera(workspace, workspace.tools.camera())
+}
+
+/// Moves the camera of the viewport, or the one of the scene that is attached to it.
+pub(super) fn move_camera(workspace: &mut Workspace, camera: Camera) -> Option<Effect> {
+    workspace.camera.set_camera(camera);
+    let mut effects = Vec::new();
+    scene_camera::follow_view(workspace, &mut effects);
+    effects.into_iter().next()
 }
 
 /// Sets the rectangle of the viewport.

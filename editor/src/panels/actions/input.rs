@@ -1,6 +1,6 @@
 //! Input of the viewport: events reach the tools as they happen, and the resulting effects are passed on at once.
 
-use super::{locks, playback, scene_lines, tools};
+use super::{locks, playback, scene_camera, scene_gizmo, scene_lines, tools};
 use crate::control::path::PathKey;
 use crate::control::{Button, InputEvent, ToolOutcome, ViewportOutcome};
 use crate::panels::request::Effect;
@@ -43,6 +43,7 @@ pub(in crate::panels) fn input(
 /// Carries out what the tools ask for.
 fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     workspace.camera.set_camera(workspace.tools.camera());
+    scene_camera::follow_view(workspace, effects);
     let corner = workspace.camera.viewport().min;
     let outcome = workspace.tools.controls_mut().picture_mut().take_outcome();
     match outcome {
@@ -66,6 +67,7 @@ fn take_tool_outcome(workspace: &mut Workspace, outcome: ToolOutcome, effects: &
             effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers)));
         }
         ToolOutcome::Refused => tools::say_refused(workspace),
+        ToolOutcome::Poses if workspace.read().scene().is_some() => scene_gizmo::send(workspace, effects),
         ToolOutcome::Poses => send_poses(workspace, effects),
         ToolOutcome::MoveKey(key) => {
             if let Some(edit) = path_edit(workspace, key) {
@@ -101,6 +103,7 @@ fn send(workspace: &mut Workspace, edit: Edit, effects: &mut Vec<Effect>) {
 }
 
 fn end_drag(workspace: &mut Workspace, cancel: bool, effects: &mut Vec<Effect>) {
+    scene_gizmo::end(workspace);
     if let Some(gesture) = workspace.tools.drag_mut().end() {
         let end = if cancel { Change::Cancel } else { Change::Release };
         effects.push(Effect::Change(end(gesture)));

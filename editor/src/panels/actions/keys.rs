@@ -1,7 +1,7 @@
 //! Keys: selecting, deleting, moving by a command, markers, the play range.
 
 use super::drags::{cancel_keys, drag_keys, release_keys};
-use super::{edit, locks, playback};
+use super::{edit, locks, playback, scene};
 use crate::panels::keys::intervals::WHOLE;
 use crate::panels::keys::{ButtonlessKind, ChannelId, KeyDragOp, MarkerAction, TimeWindow, channel};
 use crate::panels::request::Effect;
@@ -75,6 +75,14 @@ pub(in crate::panels) fn cancel_or_deselect(workspace: &mut Workspace) -> Option
         return cancel_keys(workspace);
     }
     if !workspace.prompts.close_overlay() {
+        if workspace.read().scene().is_some() {
+            workspace.scene.select_things(&[], Choice::Replace);
+            workspace.scene.select_action(None);
+        }
+        let is_waiting = workspace.stage.waiting().is_some_and(|waiting| waiting.is_shown);
+        if is_waiting && workspace.bones.bones().is_empty() && workspace.keys.selection().is_empty() {
+            return scene::show_scene(workspace);
+        }
         workspace.bones.clear();
         // Keys are deselected, too, so that Delete only deletes keys that are visibly selected.
         workspace.keys.deselect();

@@ -1,13 +1,14 @@
 //! Scenes: selection, the newest text, things of the cast.
 
-use super::{playback, scene_lines};
+use super::{playback, scene_camera, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
-use crate::panels::request::Effect;
-use crate::panels::scene::{NewThing, SceneBase, SceneRequest, ScriptChange, new_thing_text};
+use crate::panels::request::{Effect, FileAction};
+use crate::panels::scene::{NewThing, SceneBase, SceneRequest, ScriptChange, WaitingTitle, new_thing_text};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::{DocumentMessage, View};
 use std::path::{Component, Path};
 use std::sync::Arc;
 
@@ -20,6 +21,7 @@ const COUNTERPARTS: &[(Id, Id)] = &[
     (Id::KeysLater, Id::ClipLater),
     (Id::FitKeys, Id::FitScene),
     (Id::SplitTake, Id::CutHere),
+    (Id::RestPose, Id::LookThroughShot),
 ];
 
 /// Returns the command that is run in place of another one while a scene is open.
@@ -41,6 +43,7 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
             return effect;
         }
         SceneRequest::SelectThings(things, choice) => {
+            workspace.stage.forget_click();
             workspace.scene.select_things(&things, choice);
             if choice == Choice::Replace {
                 workspace.scene.select_action(None);
@@ -54,13 +57,15 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Ripple(ripple) => workspace.scene.set_ripple(ripple),
         SceneRequest::Window(window) => workspace.scene.set_window(window),
         SceneRequest::Refused(reason) => workspace.say(MessageSeverity::Info, reason),
-        SceneRequest::EditModel(thing) => edit_model(workspace, &thing),
         SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
+        SceneRequest::Through(through) => scene_camera::look_through(workspace, through),
+        SceneRequest::EditModel(thing) => return edit_model(workspace, &thing),
+        SceneRequest::ShowScene => return show_scene(workspace),
     }
     None
 }
 
-fn change_text(workspace: &mut Workspace, change: &ScriptChange) -> Option<Effect> {
+pub(super) fn change_text(workspace: &mut Workspace, change: &ScriptChange) -> Option<Effect> {
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
     match workspace.scene.change(&scene, change) {
         Ok(change) => change.map(Effect::Change),
@@ -155,11 +160,36 @@ pub(in crate::panels) fn fit(workspace: &mut Workspace) {
     workspace.scene.set_window(None);
 }
 
-/// Asks for the takes and bones of the model of a thing.
-fn edit_model(workspace: &mut Workspace, thing: &str) {
-    workspace.scene.edit_model(thing.into());
-    let text = format!("Takes and bones of {thing} are edited in its own file: File ▸ Open");
-    workspace.say(MessageSeverity::Info, text);
+/// Opens the takes and bones of the model of a thing; the scene waits.
+pub(in crate::panels) fn edit_model(workspace: &mut Workspace, thing: &str) -> Option<Effect> {
+    let view = workspace.model.view()?;
+    let script = view.scene.as_ref()?.script.as_ref()?;
+    let element = script.things().find(|element| element.value("id") == Some(thing))?;
+    let Some(model) = element.value("model").map(str::to_owned) else {
+        let text = format!("A {} has no model with takes and bones", element.row.name);
+        workspace.say(MessageSeverity::Info, text);
+        return None;
+    };
+    let waiting = WaitingTitle { scene: view.file.title.as_str().into(), is_shown: false };
+    workspace.stage.set_waiting(Some(waiting));
+    Some(Effect::File(FileAction::Send(DocumentMessage::EditModel(model))))
+}
+
+/// Shows the scene again, whose model is edited now.
+pub(in crate::panels) fn show_scene(workspace: &mut Workspace) -> Option<Effect> {
+    if workspace.stage.waiting().is_none_or(|waiting| !waiting.is_shown) {
+        workspace.say(MessageSeverity::Info, "No model of a scene is being edited");
+        return None;
+    }
+    Some(Effect::File(FileAction::Send(DocumentMessage::ShowScene)))
+}
+
+/// Notes whether a document that was just opened is a model of the scene that waits.
+pub(super) fn note_waiting(workspace: &mut Workspace, view: &View) {
+    let waiting = workspace.stage.waiting().filter(|_| view.scene.is_none()).cloned();
+    // A model that is opened after the one of the scene takes the place of both.
+    let waiting = waiting.filter(|waiting| !waiting.is_shown);
+    workspace.stage.set_waiting(waiting.map(|waiting| WaitingTitle { is_shown: true, ..waiting }));
 }
 
 /// Shows a scene that was just opened: from its start, paused.
@@ -180,6 +210,7 @@ pub(super) fn follow(workspace: &mut Workspace, answered: u64) {
     if workspace.frame_rate.get() != rate {
         workspace.frame_rate.choose(rate);
     }
+    scene_view::frame_once(workspace);
     // The models may have come after the script.
     if workspace.player.take().is_none()
         && let Some(bounds) = workspace.read().scene_bounds()

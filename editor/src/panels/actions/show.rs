@@ -1,7 +1,7 @@
 //! The start of a frame, and a newer view of the document.
 
 use super::reopened::BeforeReload;
-use super::{drags, framing, keys, layers, playback, scene, scope, tools, undo};
+use super::{drags, framing, keys, layers, playback, scene, scene_camera, scope, tools, undo};
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
 use crate::panels::difference_text::ShownScale;
@@ -10,6 +10,7 @@ use crate::panels::workspace::Workspace;
 use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::View;
 use dragonfly_document::edit::{BonePose, BoneRef};
+use dragonfly_picture::ThroughCamera;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -38,6 +39,7 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
             workspace.posed.update(view, playback.take, workspace.player.time());
         }
     }
+    scene_camera::update(workspace);
     tools::sync_gizmo(workspace);
     tools::update_path(workspace);
     let scene = workspace.model.view().and_then(|view| view.scene.clone());
@@ -51,6 +53,9 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
         let before = BeforeReload::of(workspace, &view);
+        scene::note_waiting(workspace, &view);
+        workspace.stage.reset();
+        workspace.camera.set_through(ThroughCamera::Free);
         workspace.model.replace(view);
         workspace.selections.open(done);
         workspace.trail.clear();

@@ -1,6 +1,6 @@
 //! The tools of the viewport: which one is active, where the gizmo is, the motion path.
 
-use super::{ik, locks, playback};
+use super::{ik, locks, playback, scene_gizmo};
 use crate::control::Catch;
 use crate::panels::motion_path::PathOf;
 use crate::panels::overlay::Overlay;
@@ -48,7 +48,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
         return say_refused(workspace);
     }
     if !workspace.tools.controls_mut().begin_by_key() {
-        workspace.say(MessageSeverity::Info, "The selected bone is behind the camera");
+        workspace.say(MessageSeverity::Info, "The selection is behind the camera");
     }
     // Nothing is changed before the mouse moves.
     workspace.tools.controls_mut().gizmo_mut().take_answer();
@@ -88,6 +88,9 @@ pub(super) fn sync_gizmo(workspace: &mut Workspace) {
         refused,
     };
     let path_editable = take.is_some() && free && !refused;
+    if view.scene.is_some() {
+        return scene_gizmo::sync(workspace, placement);
+    }
     workspace.tools.sync_gizmo(view, &mut workspace.posed, placement, editable, path_editable);
 }
 
@@ -115,6 +118,9 @@ pub(super) fn update_path(workspace: &mut Workspace) {
 
 /// Reports why a pose cannot be changed.
 pub(super) fn say_refused(workspace: &mut Workspace) {
+    if workspace.read().scene().is_some() {
+        return scene_gizmo::say_refused(workspace);
+    }
     if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
         return match workspace.read().scope_refusal().filter(|_| !workspace.read().selection_is_locked()) {
             Some(reason) => workspace.say(MessageSeverity::Warning, reason),

@@ -30,6 +30,8 @@ pub enum When {
     Bone,
     /// A bone is selected and a take is shown.
     BoneInTake,
+    /// A bone is selected and a take is shown, or a thing of a scene is selected.
+    Movable,
     /// A key is selected.
     Keys,
     /// The take that is shown has pending poses.
@@ -80,6 +82,7 @@ impl When {
             Self::Contacts => !panels.contacts.track().is_empty(),
             Self::Bone => bone,
             Self::BoneInTake => bone && take,
+            Self::Movable => (bone && take) || Self::Thing.holds(panels),
             Self::Keys => take && !panels.keys.selection().is_empty(),
             Self::Pending => panels.pending_times().next().is_some(),
             Self::Pinned => pinned,
@@ -119,6 +122,7 @@ impl When {
             Self::Contacts => "The take has no contacts: detect or add some first",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "Requires a selected bone and a take",
+            Self::Movable => "Requires a selected bone and a take, or a thing of a scene",
             Self::Keys => "No key is selected",
             Self::Pending => "No pose is pending in this take",
             Self::Pinned => "No bone is pinned",

@@ -27,7 +27,7 @@ use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
 use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
-use super::scene::SceneEditing;
+use super::scene::{SceneEditing, SceneViewport};
 use super::selection_sets::SelectionSets;
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
@@ -44,6 +44,7 @@ use dragonfly_document::edit::BonePose;
 use dragonfly_document::history::Gesture;
 use dragonfly_document::posing::IkMode;
 use dragonfly_document::{LoadedModel, View};
+use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
 use egui::{Pos2, Rect};
@@ -126,6 +127,12 @@ pub struct PanelContext<'a> {
     pub sets: &'a SelectionSets,
     /// The scene that is open: selection, lanes, the newest text.
     pub scene_editing: &'a SceneEditing,
+    /// The scene in the viewport.
+    pub stage: &'a SceneViewport,
+    /// The camera of the scene through which the viewport looks.
+    pub through: &'a ThroughCamera,
+    /// Whether moving the view moves that camera.
+    pub is_camera_attached: bool,
     /// The pose library.
     pub poses: &'a PoseLibrary,
     /// The reference picture.

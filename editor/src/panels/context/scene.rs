@@ -35,6 +35,13 @@ impl<'a> PanelContext<'a> {
         }
     }
 
+    /// Returns the id of the camera of the shot at the playhead; `None` where the cast has no camera.
+    pub fn shot_camera(&self) -> Option<&'a str> {
+        let plan = self.scene()?.plan.as_ref()?;
+        let camera = self.stage.shown_camera()?;
+        plan.things().get(camera).map(|thing| &*thing.id)
+    }
+
     /// Returns start and length of the scene, seconds; `None` while a model is open, and before a script works.
     pub fn scene_bounds(&self) -> Option<(f32, f32)> {
         let plan = self.scene()?.plan.as_ref()?;

@@ -26,8 +26,6 @@ pub struct SceneEditing {
     renaming: Option<Box<str>>,
     /// The thing that is selected as soon as the script has it.
     awaited: Option<Box<str>>,
-    /// The thing whose model is to be edited.
-    edited_model: Option<Box<str>>,
     ripple: bool,
     /// The part of time that the timeline shows; `None` for all.
     window: Option<TimeWindow>,
@@ -59,7 +57,6 @@ impl Default for SceneEditing {
             locked: BTreeSet::new(),
             renaming: None,
             awaited: None,
-            edited_model: None,
             ripple: true,
             window: None,
             shown: None,
@@ -96,6 +93,11 @@ impl SceneEditing {
     /// Returns whether a thing is hidden.
     pub fn is_hidden(&self, thing: &str) -> bool {
         self.hidden.contains(thing)
+    }
+
+    /// Returns the ids of the hidden things.
+    pub fn hidden(&self) -> impl Iterator<Item = &str> {
+        self.hidden.iter().map(|id| &**id)
     }
 
     /// Returns whether a thing is locked: gestures do not change it.
@@ -208,16 +210,6 @@ impl SceneEditing {
     /// Selects a thing as soon as the script has it.
     pub(in crate::panels) fn await_thing(&mut self, thing: Box<str>) {
         self.awaited = Some(thing);
-    }
-
-    /// Notes the thing whose model is to be edited.
-    pub(in crate::panels) fn edit_model(&mut self, thing: Box<str>) {
-        self.edited_model = Some(thing);
-    }
-
-    /// Returns the thing whose model is to be edited, and forgets it.
-    pub fn take_edited_model(&mut self) -> Option<Box<str>> {
-        self.edited_model.take()
     }
 
     pub(in crate::panels) fn set_ripple(&mut self, ripple: bool) {

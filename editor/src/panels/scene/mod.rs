@@ -21,6 +21,7 @@ pub mod script;
 mod template;
 mod thing_icon;
 pub mod timeline;
+mod viewport;
 
 pub use base::SceneBase;
 pub use editing::SceneEditing;
@@ -29,3 +30,4 @@ pub use line_editing::{LineEditing, line_name, line_named};
 pub use new_thing::{NewThing, new_thing_text};
 pub use request::{LineRequest, SceneRequest, ScriptChange};
 pub use template::{duel_text, free_name, project_texts};
+pub use viewport::{SceneViewport, WaitingTitle};

@@ -3,6 +3,7 @@
 use crate::panels::keys::TimeWindow;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::history::Gesture;
+use dragonfly_picture::ThroughCamera;
 use std::sync::Arc;
 
 /// A new text of the script.
@@ -58,6 +59,10 @@ pub enum SceneRequest {
     Window(Option<TimeWindow>),
     /// Tells why a gesture was refused.
     Refused(String),
+    /// Looks through a camera of the scene, or through the free one.
+    Through(ThroughCamera),
+    /// Shows the scene again while one of its models is edited.
+    ShowScene,
     /// Opens the takes and bones of the model of a thing, in place.
     EditModel(Box<str>),
     /// A request about a drawn line.

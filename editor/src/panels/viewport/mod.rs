@@ -4,6 +4,7 @@ mod axes;
 mod cards;
 mod glass;
 mod ik;
+mod image_frame;
 mod overlay;
 mod readout;
 mod toolbar;
@@ -11,12 +12,14 @@ mod tools;
 
 use super::context::PanelContext;
 use super::request::Request;
+use super::scene::SceneRequest;
 use super::style;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, PanelSubject, widgets};
+use dragonfly_picture::ThroughCamera;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2};
+use egui::{Color32, FontId, Pos2, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 use std::borrow::Cow;
 
 /// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::ViewportTools`])
@@ -47,11 +50,14 @@ impl Panel for Viewport {
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));
         overlay::pointer(ui, &response, context, requests);
-        if context.view.is_some() {
+        if context.scene().is_some() {
+            edit_model(&response, context, requests);
+        } else if context.view.is_some() {
             super::bone_menu::show(&response, context, context.pointed, requests);
         }
         let mut shields = Vec::new();
         if context.view.is_some() {
+            image_frame::show(ui, rect, context);
             overlay::drawn(ui, rect, context);
             let tools = toolbar::toolbar(ui, rect, context, requests);
             shields.push(tools);
@@ -81,9 +87,45 @@ fn caption(ui: &Ui, rect: Rect, right: f32, context: &PanelContext<'_>) {
     };
     let at = pos2(rect.left() + 14.0, rect.top() + 12.0);
     let width = right - at.x - 12.0;
+    if let Some(scene) = &view.scene {
+        let title = match camera_title(context) {
+            Some(camera) => format!("{}  ·  {camera}", view.file.title),
+            None => view.file.title.clone(),
+        };
+        let bottom = name(ui, at, width, &title, "scene", (style::BODY, theme.text));
+        if rect.width() > 640.0 {
+            let things = scene.plan.as_ref().map_or(0, |plan| plan.things().len());
+            let text = widgets::count(things, "thing", "things");
+            name(ui, pos2(at.x, bottom + 2.0), width, &text, "cast", (style::SMALL, theme.weak));
+        }
+        return;
+    }
     let bottom = name(ui, at, width, &view.file.title, "model", (style::BODY, theme.text));
     if rect.width() > 640.0 {
         name(ui, pos2(at.x, bottom + 2.0), width, &take, "take", (style::SMALL, theme.weak));
+    }
+}
+
+/// Returns the name of the camera through which the viewport looks; `None` for the free one.
+fn camera_title(context: &PanelContext<'_>) -> Option<String> {
+    let attached = if context.is_camera_attached { "  ·  camera to view" } else { "" };
+    match context.through {
+        ThroughCamera::Free => None,
+        ThroughCamera::Shot => {
+            let id = context.shot_camera().unwrap_or_default();
+            Some(format!("shot: {id}{attached}"))
+        }
+        ThroughCamera::Of(id) => Some(format!("{id}{attached}")),
+    }
+}
+
+/// Opens the model of the thing under the pointer after a double click.
+fn edit_model(response: &Response, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let Some(thing) = context.stage.hovered().filter(|_| response.double_clicked()) else { return };
+    let plan = context.scene().and_then(|scene| scene.plan.as_ref());
+    let planned = plan.and_then(|plan| plan.things().get(plan.thing_called(thing)?));
+    if planned.is_some_and(|planned| matches!(planned.kind, "role" | "prop")) {
+        requests.push(Request::Scene(SceneRequest::EditModel(Box::from(&**thing))));
     }
 }
 

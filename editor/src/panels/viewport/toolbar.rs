@@ -10,7 +10,7 @@ use crate::panels::request::Request;
 use crate::panels::style::GRID;
 use crate::panels::widgets::icon_button;
 use dragonfly_picture::camera::Projection;
-use dragonfly_picture::{BoneLook, Shading};
+use dragonfly_picture::{BoneLook, Shading, ThroughCamera};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Draws a button for everything about camera and shading, so that nothing needs a numeric keypad or a middle button.
@@ -24,7 +24,8 @@ pub(super) fn toolbar(
     let look = &context.settings.look;
     // A narrow viewport keeps the buttons that have no alternative nearby; the menus contain all of them.
     let wide = rect.width() > 430.0;
-    let groups = if wide { 12.0 } else { 6.0 };
+    let is_scene = context.scene().is_some();
+    let groups = if wide { 12.0 } else { 6.0 } + if is_scene { 2.0 } else { 0.0 };
     let width = groups * 26.0 + 3.0 * 9.0 + 2.0 * GRID + if wide { 26.0 } else { 0.0 };
     let at = Rect::from_min_size(pos2(rect.right() - width - 10.0, rect.top() + 10.0), vec2(width, 32.0));
     glass(ui, at);
@@ -43,6 +44,10 @@ pub(super) fn toolbar(
     };
     command_button(ui, icon, Id::ToggleProjection, flat, requests);
     command_button(ui, Icon::Frame, Id::FrameAll, false, requests);
+    if is_scene {
+        cameras(ui, context, requests);
+        command_button(ui, Icon::Sun, Id::ToggleHelpers, look.helpers, requests);
+    }
     divider(ui);
     command_button(ui, Icon::Grid, Id::ToggleGrid, look.grid, requests);
     command_button(ui, Icon::XRay, Id::ToggleXRay, look.bones_in_front, requests);
@@ -67,6 +72,16 @@ pub(super) fn toolbar(
         command_button(ui, Icon::Surface, Id::ToggleSurface, look.surface, requests);
     }
     at
+}
+
+/// Draws the button for the camera through which the viewport looks.
+fn cameras(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let is_through = *context.through != ThroughCamera::Free;
+    let response = icon_button(ui, Icon::Camera, "Look through", is_through).on_hover_text("Look through");
+    egui::Popup::menu(&response).show(|ui| {
+        ui.set_width(230.0);
+        menu::look_through(ui, context, requests);
+    });
 }
 
 fn views(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -32,5 +32,7 @@ commands! {
     SceneDelete => When::SceneItem, "Delete action or things", [], "Deletes the selected action, or the selected things; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
     SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected action; what follows stays where it is", |w| scene_clips::delete(w, true);
     ToggleSceneRipple => When::Always, "Ripple", [], "Lets what follows in a sequence move along with an action that is dragged; hold 2 for the other way", |w| { scene::toggle_ripple(w); None };
+    EditSceneModel => When::Thing, "Edit takes and bones", [], "Opens the model of the selected thing, in place: its takes and bones", |w| { let thing = w.scene.things().last().cloned()?; scene::edit_model(w, &thing) };
+    BackToScene => When::Always, "Back to scene", [], "Shows the scene again whose model is edited", scene::show_scene;
     FitScene => When::Scene, "Show the whole scene", [], "Shows all of the scene in its timeline", |w| { scene::fit(w); None };
 }

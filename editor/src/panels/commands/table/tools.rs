@@ -17,9 +17,9 @@ commands! {
     ToolPath => When::Scene, "Draw a path", [key(SHIFT, Key::N)], "Draws a path on the ground that roles can follow: drag freehand, with Shift straight; click corners and end with Enter", |w| { scene_lines::choose(w, LineUse::Path); None };
     LinesOnGround => When::Always, "Draw on the ground", [], "Draws lines on the ground", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::Ground); None };
     LinesInView => When::Always, "Draw in the view", [], "Draws lines in the plane through the point that the camera looks at", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::View); None };
-    MoveNow => When::BoneInTake, "Move with the mouse", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };
-    RotateNow => When::BoneInTake, "Rotate with the mouse", [], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None };
-    ScaleNow => When::BoneInTake, "Scale with the mouse", [], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None };
+    MoveNow => When::Movable, "Move with the mouse", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };
+    RotateNow => When::Movable, "Rotate with the mouse", [], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None };
+    ScaleNow => When::Movable, "Scale with the mouse", [], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None };
     NextSpace => When::Always, "Next gizmo axes", [key(NONE, Key::T)], "Switches the gizmo between local, parent, world and view axes", |w| { tools::next_space(w); None };
     SpaceLocal => When::Always, "Local axes", [], "Aligns the gizmo with the bone", |w| { w.settings.tools.space = GizmoSpace::Local; None };
     SpaceParent => When::Always, "Parent axes", [], "Aligns the gizmo with the bone's parent", |w| { w.settings.tools.space = GizmoSpace::Parent; None };

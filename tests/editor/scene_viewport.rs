@@ -1,0 +1,212 @@
+//! The viewport of a scene: what is framed, what a click selects, whose eyes it looks through, and what the gizmo writes.
+
+use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::workbench::{Window, Workbench};
+use dragonfly::control::{InputEvent, Key as ToolKey};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::request::FileAction;
+use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::{Effect, Request};
+use dragonfly_document::bones::Choice;
+use dragonfly_document::{Change, DocumentMessage};
+use dragonfly_kit::document::fixture;
+use dragonfly_picture::ThroughCamera;
+use dragonfly_picture::gizmo::GizmoView;
+use egui::{Key, pos2};
+use egui_kittest::kittest::Queryable;
+use glam::{Vec2, Vec3};
+use std::sync::Arc;
+
+fn run(window: &mut Window, id: Id) -> Option<Effect> {
+    execute(window, Request::Command(id))
+}
+
+fn execute(window: &mut Window, request: Request) -> Option<Effect> {
+    let effect = window.state_mut().state.execute(request);
+    let effect = match effect {
+        Some(Effect::Change(change)) => {
+            window.state_mut().change(change);
+            None
+        }
+        other => other,
+    };
+    window.run_steps(2);
+    effect
+}
+
+fn select(window: &mut Window, ids: &[&str]) {
+    let ids = ids.iter().map(|id| (*id).into()).collect();
+    execute(window, Request::Scene(SceneRequest::SelectThings(ids, Choice::Replace)));
+}
+
+fn things(window: &Window) -> Vec<String> {
+    window.state().state.read().scene_editing.things().iter().map(|id| id.to_string()).collect()
+}
+
+/// Gives an input to the tools of the viewport.
+fn input(window: &mut Window, event: InputEvent) {
+    let mut effects = Vec::new();
+    window.state_mut().state.input(event, &mut effects);
+    for effect in effects {
+        if let Effect::Change(change) = effect {
+            window.state_mut().change(change);
+        }
+    }
+}
+
+fn keys(window: &mut Window, keys: &[ToolKey]) {
+    for &key in keys {
+        input(window, InputEvent::KeyDown(key));
+        input(window, InputEvent::KeyUp(key));
+    }
+    window.run_steps(2);
+}
+
+/// Returns where the viewport shows points, as shares of its size.
+fn seen(bench: &Workbench, points: &[Vec3]) -> Vec<Vec2> {
+    let panels = bench.state.read();
+    let size = Vec2::new(panels.viewport.width(), panels.viewport.height());
+    let view = GizmoView::new(&panels.camera, size);
+    points
+        .iter()
+        .map(|point| view.to_screen(point.as_dvec3()).expect("in front of the camera").as_vec2() / size)
+        .collect()
+}
+
+#[test]
+fn an_opened_scene_is_framed_and_so_is_what_is_selected() {
+    // Two foxes of about half a meter's length at one meter from the middle.
+    let feet = [Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0)];
+    let mut bench = scene(FOXES);
+    let both = seen(&bench, &feet);
+    assert!(both.iter().all(|at| at.min_element() > 0.0 && at.max_element() < 1.0), "{both:?}");
+    assert!((both[1].x - both[0].x).abs() > 0.4, "{both:?}");
+    let far = bench.state.read().camera.distance;
+    bench.state.execute(Request::Scene(SceneRequest::SelectThings(vec!["ben".into()], Choice::Replace)));
+    bench.state.execute(Request::Command(Id::FrameSelected));
+    let near = seen(&bench, &[Vec3::new(1.0, 0.35, 0.0)]);
+    assert!((near[0] - 0.5).length() < 0.25, "{near:?}");
+    assert!(bench.state.read().camera.distance < 0.7 * far);
+    bench.state.execute(Request::Command(Id::FrameAll));
+    assert!((bench.state.read().camera.distance / far - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn a_click_selects_the_nearest_thing_and_the_next_one_there_the_one_behind() {
+    let mut window = scene(FOXES).window();
+    let hits: [Arc<str>; 2] = ["anna".into(), "ben".into()];
+    let click = |window: &mut Window, x: f32, choice: Choice| {
+        window.state_mut().state.thing_picked(pos2(x, 300.0), &hits, choice);
+        things(window)
+    };
+    assert_eq!(click(&mut window, 300.0, Choice::Replace), ["anna"]);
+    assert_eq!(click(&mut window, 301.0, Choice::Replace), ["ben"]);
+    assert_eq!(click(&mut window, 300.0, Choice::Replace), ["anna"]);
+    assert_eq!(click(&mut window, 400.0, Choice::Replace), ["anna"], "elsewhere it begins again");
+    execute(&mut window, Request::Scene(SceneRequest::Lock(vec!["anna".into()], true)));
+    assert_eq!(click(&mut window, 500.0, Choice::Replace), ["ben"], "a locked thing is not selected");
+    execute(&mut window, Request::Scene(SceneRequest::Lock(vec!["anna".into()], false)));
+    window.state_mut().state.things_caught(&hits, Choice::Replace);
+    assert_eq!(things(&window), ["anna", "ben"]);
+    window.state_mut().state.thing_picked(pos2(9.0, 9.0), &["sun".into()], Choice::Add);
+    assert_eq!(things(&window), ["anna", "ben", "sun"]);
+    window.state_mut().state.thing_picked(pos2(9.0, 9.0), &[], Choice::Replace);
+    assert!(things(&window).is_empty(), "a click on nothing deselects");
+}
+
+#[test]
+fn zero_looks_through_the_shot_and_orbiting_leaves_it() {
+    let mut window = scene(FOXES).window();
+    window.key_press(Key::Num0);
+    window.run_steps(3);
+    let camera = window.state().state.read().camera;
+    assert!(camera.eye().distance(Vec3::new(0.0, 1.0, 5.0)) < 1e-3, "{camera:?}");
+    let ahead = Vec3::new(0.0, -0.5, -5.0).normalize();
+    assert!(camera.back().distance(-ahead) < 1e-3, "{camera:?}");
+    assert!(window.query_by_label("Shown scene: scene.xml  ·  shot: wide").is_some());
+    execute(&mut window, Request::Scene(SceneRequest::Through(ThroughCamera::Of("close".into()))));
+    assert!(window.query_by_label("Shown scene: scene.xml  ·  close").is_some());
+    let mut moved = window.state().state.read().camera;
+    moved.orbit(0.3, 0.0);
+    execute(&mut window, Request::Camera(moved));
+    assert_eq!(*window.state().state.read().through, ThroughCamera::Free);
+    assert_eq!(text(&window), FOXES, "the camera of the script stays");
+    assert!(window.query_by_label("Shown scene: scene.xml").is_some());
+}
+
+#[test]
+fn a_camera_that_is_attached_to_the_view_is_moved_in_the_script() {
+    let mut window = scene(FOXES).window();
+    execute(&mut window, Request::Scene(SceneRequest::Through(ThroughCamera::Of("wide".into()))));
+    run(&mut window, Id::AttachCamera);
+    let mut moved = window.state().state.read().camera;
+    moved.target += Vec3::new(1.0, 0.25, 0.0);
+    execute(&mut window, Request::Camera(moved));
+    let line = r#"<camera id="wide"  at="1 1.25 5" look="1 0.75 0" lens="35mm"/>"#;
+    assert_eq!(new_lines(FOXES, &text(&window)), [line]);
+    assert_eq!(window.state().steps(), (1, 1));
+    assert_eq!(*window.state().state.read().through, ThroughCamera::Of("wide".into()));
+    window.state_mut().change(Change::Undo);
+    assert_eq!(text(&window), FOXES);
+}
+
+#[test]
+fn the_gizmo_moves_turns_and_scales_things_by_one_attribute_each() {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::SpaceWorld);
+    select(&mut window, &["ben"]);
+    let letter = ToolKey::letter;
+    let drags = [
+        (Id::MoveNow, vec![letter('x'), letter('1'), ToolKey::Enter], "at=\"1 0 0\"", "at=\"2 0 0\""),
+        (
+            Id::RotateNow,
+            vec![letter('y'), letter('9'), letter('0'), ToolKey::Enter],
+            "facing=\"-90\"",
+            "facing=\"0\"",
+        ),
+        (Id::ScaleNow, vec![letter('2'), ToolKey::Enter], "scale=\"0.01\"", "scale=\"0.02\""),
+    ];
+    for (id, typed, old, new) in drags {
+        run(&mut window, id);
+        keys(&mut window, &typed);
+        let ben = r#"<role   id="ben"   model="Fox.glb" at="1 0 0" facing="-90" scale="0.01"/>"#;
+        assert_eq!(new_lines(FOXES, &text(&window)), [ben.replace(old, new)], "{id:?}");
+        assert_eq!(window.state().steps().0, 1, "{id:?}");
+        window.state_mut().change(Change::Undo);
+        window.run_steps(2);
+        assert_eq!(text(&window), FOXES, "{id:?}");
+    }
+}
+
+#[test]
+fn a_cancelled_drag_of_a_thing_and_a_locked_thing_change_nothing() {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::SpaceWorld);
+    select(&mut window, &["ben"]);
+    run(&mut window, Id::MoveNow);
+    keys(&mut window, &[ToolKey::letter('x'), ToolKey::letter('3')]);
+    assert_ne!(text(&window), FOXES, "the drag is shown before it ends");
+    keys(&mut window, &[ToolKey::Escape]);
+    assert_eq!(text(&window), FOXES);
+    execute(&mut window, Request::Scene(SceneRequest::Lock(vec!["ben".into()], true)));
+    run(&mut window, Id::MoveNow);
+    keys(&mut window, &[ToolKey::letter('x'), ToolKey::letter('3'), ToolKey::Enter]);
+    assert_eq!((text(&window).as_str(), window.state().steps().0), (FOXES, 0));
+}
+
+#[test]
+fn the_model_of_a_thing_is_opened_in_place_and_the_scene_shown_again() {
+    let mut bench = scene(FOXES);
+    let sent = |effect: Option<Effect>| match effect {
+        Some(Effect::File(FileAction::Send(message))) => message,
+        other => panic!("{other:?}"),
+    };
+    let opened = bench.state.execute(Request::Scene(SceneRequest::EditModel("anna".into())));
+    assert_eq!(sent(opened), DocumentMessage::EditModel("Fox.glb".to_owned()));
+    assert_eq!(bench.state.execute(Request::Command(Id::BackToScene)), None, "the model is still being read");
+    bench.state.show(fixture::full());
+    let waiting = bench.state.read().stage.waiting().cloned().expect("a scene waits");
+    assert_eq!((&*waiting.scene, waiting.is_shown), ("scene.xml", true));
+    let back = bench.state.execute(Request::Command(Id::BackToScene));
+    assert_eq!(sent(back), DocumentMessage::ShowScene);
+}

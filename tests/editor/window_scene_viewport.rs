@@ -1,0 +1,55 @@
+//! A scene in the real window: a fox is clicked and dragged in the viewport, the shot is looked through, and everything is undone.
+
+use crate::scene_bench::FOXES;
+use crate::screen::key;
+use crate::window::alone;
+use crate::window_bone_rotation::numbers;
+use crate::window_visit::Visit;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::gizmo::GizmoView;
+use glam::{DVec3, Vec2, Vec3};
+
+/// Returns the camera of the window.
+fn camera(visit: &mut Visit) -> Camera {
+    let [x, y, z, distance, yaw, pitch] = numbers(&visit.shown("camera"));
+    Camera { target: Vec3::new(x, y, z), distance, yaw, pitch, ..Camera::default() }
+}
+
+/// Returns where the window shows a point.
+fn place(visit: &mut Visit, point: DVec3) -> Vec2 {
+    let camera = camera(visit);
+    let [left, top, width, height] = numbers(&visit.shown("viewport"));
+    let view = GizmoView::new(&camera, Vec2::new(width, height));
+    view.to_screen(point).expect("in front of the camera").as_vec2() + Vec2::new(left, top)
+}
+
+#[test]
+fn a_thing_is_clicked_dragged_and_seen_through_the_shot_and_undo_restores_the_text() {
+    let _one = alone();
+    let mut visit = Visit::of_scene("scene viewport", FOXES);
+    visit.control("Lanes of the scene");
+    // All of the scene is framed when its model was read: it is more than two meters wide.
+    visit.until("a framed scene", |visit| (camera(visit).distance > 1.5).then_some(()));
+    let flank = place(&mut visit, DVec3::new(1.0, 0.4, 0.0));
+    visit.screen.click(flank.x as i16, flank.y as i16);
+    // The attributes of a role.
+    visit.control("facing");
+    visit.screen.press(key::of('w'));
+    let pivot = place(&mut visit, DVec3::new(1.0, 0.0, 0.0));
+    visit.screen.point(pivot.x as i16, pivot.y as i16);
+    visit.screen.hold();
+    for step in 1..=5 {
+        visit.screen.point(pivot.x as i16 + 12 * step, pivot.y as i16);
+    }
+    visit.screen.release_button();
+    visit.until_steps(1, 1);
+    visit.screen.press(key::of('0'));
+    visit.until("the view of the shot", |visit| {
+        (camera(visit).eye().distance(Vec3::new(0.0, 1.0, 5.0)) < 0.01).then_some(())
+    });
+    visit.screen.keep("shot");
+    visit.control_and(key::Z);
+    visit.until_steps(0, 1);
+    assert_eq!(visit.save(), FOXES.as_bytes(), "everything is undone");
+    visit.end();
+}
