@@ -54,7 +54,8 @@ fn fox() -> (Arc<LoadedModel>, Arc<StageModel>) {
         let bytes = std::fs::read(path).unwrap();
         let model = Arc::new(read("Fox.glb", &bytes, &NoFiles, &ReadOptions::default()).unwrap().model);
         let loaded = fixture::view("Fox.glb", model.animation.skeleton.as_ref().clone(), &[]).loaded;
-        (loaded, Arc::new(StageModel::new(model)))
+        let loaded = LoadedModel { model: Arc::clone(&model), ..LoadedModel::clone(&loaded) };
+        (Arc::new(loaded), Arc::new(StageModel::new(model)))
     })
     .clone()
 }

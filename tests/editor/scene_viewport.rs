@@ -85,7 +85,7 @@ fn an_opened_scene_is_framed_and_so_is_what_is_selected() {
     bench.state.execute(Request::Scene(SceneRequest::SelectThings(vec!["ben".into()], Choice::Replace)));
     bench.state.execute(Request::Command(Id::FrameSelected));
     let near = seen(&bench, &[Vec3::new(1.0, 0.35, 0.0)]);
-    assert!((near[0] - 0.5).length() < 0.25, "{near:?}");
+    assert!((near[0] - 0.5).length() < 0.25, "{near:?} {:?}", bench.state.read().camera);
     assert!(bench.state.read().camera.distance < 0.7 * far);
     bench.state.execute(Request::Command(Id::FrameAll));
     assert!((bench.state.read().camera.distance / far - 1.0).abs() < 1e-3);

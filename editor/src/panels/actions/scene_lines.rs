@@ -34,7 +34,7 @@ pub(in crate::panels) fn choose(workspace: &mut Workspace, use_of: LineUse) {
     }
     let has_project = workspace.read().scene().is_some_and(|scene| scene.project.is_some());
     if use_of == LineUse::Note && !has_project {
-        let text = "Lines belong to a project: File ▸ New project from this scene. A path can be drawn without one (Draw a path)";
+        let text = "Lines belong to a project: choose \"New project from this scene\" in the menu File. A path can be drawn without one";
         return workspace.say(MessageSeverity::Info, text);
     }
     let target = workspace.camera.camera().target.as_dvec3();
@@ -177,8 +177,10 @@ fn lines_edit(
     label: &str,
     change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
 ) -> Result<EditScript, &'static str> {
-    let project =
-        scene.project.as_ref().ok_or("Lines belong to a project: File ▸ New project from this scene")?;
+    let project = scene
+        .project
+        .as_ref()
+        .ok_or("Lines belong to a project: choose \"New project from this scene\" in the menu File")?;
     let refused = "The line cannot be written";
     if let Some(name) = project.lines() {
         let file = scene.texts.called(name).ok_or("The file of lines is missing")?;

@@ -70,7 +70,7 @@ impl Panel for ScriptPanel {
             return widgets::empty(
                 ui,
                 "The script of a scene appears here",
-                "File ▸ New scene… or open a scene.xml",
+                "Choose \"New scene of two roles\" in the menu File, or open a scene.xml",
             );
         };
         let id = Id::unique("script of the scene");

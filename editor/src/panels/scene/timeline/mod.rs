@@ -73,7 +73,7 @@ impl Panel for SceneTimeline {
             return widgets::empty(
                 ui,
                 "The timeline of a scene appears here",
-                "File ▸ New scene… or open a scene.xml",
+                "Choose \"New scene of two roles\" in the menu File, or open a scene.xml",
             );
         };
         if scene.plan.is_none() {
