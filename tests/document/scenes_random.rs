@@ -57,7 +57,7 @@ fn any_sequence_of_edits_and_gestures_changes_what_it_says_and_undo_of_all_gives
                 _ => {}
             }
             let before = states[edited.steps().1].clone();
-            let gesture = (random.bits() % 3 == 0).then_some(Gesture(step));
+            let gesture = random.bits().is_multiple_of(3).then_some(Gesture(step));
             let mut wanted = None;
             // Each edit of a gesture is relative to the text before the gesture.
             for _ in 0..if gesture.is_some() { 3 } else { 1 } {

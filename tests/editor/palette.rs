@@ -21,7 +21,7 @@ fn palette(text: &str) -> Harness<'static, Bench> {
 
 #[test]
 fn the_palette_runs_the_command_that_the_search_found() {
-    let mut harness = palette("ground");
+    let mut harness = palette("ground grid");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
     assert!(!harness.state().state.read().settings.look.grid);

@@ -86,7 +86,7 @@ fn a_scene_is_dragged_typed_cut_undone_redone_saved_and_opened_with_the_same_byt
     assert_eq!(visit.editor.ends(SOON).code(), Some(0), "{}", visit.editor.log());
     visit.again(Some("scene-again"));
     place(&mut visit, "Lanes of the scene");
-    // The history goes on where it was.
+    // The history is the one before.
     visit.until_steps(3, 3);
     assert_eq!(std::fs::read_to_string(&visit.file).unwrap(), saved);
     visit.end();

@@ -34,7 +34,7 @@ pub struct SceneView {
     pub script: Option<Arc<StageScript>>,
     /// The plan of that script, which plays.
     pub plan: Option<Arc<StagePlan>>,
-    /// What is wrong with [`Self::text`], in its order; empty if `script` and `plan` are those of this text.
+    /// The errors of [`Self::text`], in its order; empty if `script` and `plan` are those of this text.
     pub errors: Arc<[ScriptError]>,
     /// Notes for the user about the scene that plays, in the order of its text: models that are missing, ends before begins.
     pub notes: Arc<[ScriptError]>,

@@ -34,7 +34,7 @@ fn frames_of_the_usual_rates_and_decimals_are_exact() {
     assert_eq!(ticks("1:05.5"), Some(TICKS_PER_SECOND * 131 / 2));
     assert_eq!(ticks("-0:00.5"), Some(-TICKS_PER_SECOND / 2));
     assert_eq!(ticks("0.00001"), Some(7056));
-    // As many programs write three tenths; and more than nine decimals that carry.
+    // Three tenths in the longest form that programs write; more than nine decimals that carry.
     assert_eq!(ticks("0.30000000000000004"), ticks("0.3"));
     assert_eq!(ticks("-0.9999999999"), ticks("-1"));
     assert_eq!(ticks("12.1234567894999"), ticks("12.123456789"));

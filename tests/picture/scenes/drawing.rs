@@ -123,7 +123,7 @@ fn lamps_of_the_scene_replace_those_of_the_studio() {
     let [far, _] = halves(&picture(&near("6", "point")));
     assert!(close > 1.2 * far, "{close} {far}");
     let [spot, _] = halves(&picture(&near("3", "spot")));
-    let behind = format!(r#"<light id="lamp" kind="spot" at="0 1.5 3" direction="0 0 1" strength="6"/>"#);
+    let behind = r#"<light id="lamp" kind="spot" at="0 1.5 3" direction="0 0 1" strength="6"/>"#.to_owned();
     assert!(spot > 1.1 * halves(&picture(&behind))[0], "a spot shines in its direction only");
 }
 

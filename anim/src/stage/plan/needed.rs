@@ -39,7 +39,7 @@ impl NeededThings {
             done += 1;
             let planned = &things[next];
             let begun = planned.holds.partition_point(|hold| hold.begin <= time);
-            // Attachments fade into at most so many others.
+            // An attachment fades into at most MOST_FADES others.
             let latest = planned.holds[..begun].iter().rev().take(MOST_FADES + 1);
             for holder in latest.filter_map(HoldCue::holder) {
                 self.add(holder);

@@ -38,10 +38,10 @@ pub(in crate::panels) fn toggle_shot(workspace: &mut Workspace) {
 /// Looks through the selected camera.
 pub(in crate::panels) fn through_selected(workspace: &mut Workspace) {
     let Some(scene) = workspace.read().scene().and_then(|scene| scene.plan.clone()) else { return };
-    let things = workspace.scene.things().iter().rev();
+    let mut things = workspace.scene.things().iter().rev().map(|id| &**id);
     let is_camera =
-        |id: &&Box<str>| scene.thing_called(id).is_some_and(|thing| scene.things()[thing].kind == "camera");
-    match things.clone().find(is_camera).map(|id| Arc::from(&**id)) {
+        |id: &&str| scene.thing_called(id).is_some_and(|thing| scene.things()[thing].kind == "camera");
+    match things.find(is_camera).map(Arc::from) {
         Some(id) => look_through(workspace, ThroughCamera::Of(id)),
         None => workspace.say(MessageSeverity::Info, "No camera is selected"),
     }
