@@ -30,6 +30,7 @@ pub(super) mod scene_camera;
 pub(super) mod scene_clips;
 pub(super) mod scene_gizmo;
 pub(super) mod scene_lines;
+pub(super) mod scene_text;
 pub(super) mod scene_view;
 pub(super) mod scope;
 pub(super) mod sets;

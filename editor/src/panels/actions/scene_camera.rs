@@ -92,7 +92,7 @@ pub(super) fn follow_view(workspace: &mut Workspace, effects: &mut Vec<Effect>) 
             workspace.stage.set_camera_drag(Some(workspace.dragging.new_gesture()));
         }
         match moved_text(workspace, &moved) {
-            Ok(change) => effects.extend(super::scene::change_text(workspace, &change)),
+            Ok(change) => effects.extend(super::scene_text::change_text(workspace, &change)),
             Err(refusal) => {
                 workspace.stage.set_camera_drag(None);
                 workspace.camera.attach(false);

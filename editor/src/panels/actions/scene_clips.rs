@@ -1,6 +1,6 @@
 //! Commands on the selected action of a scene.
 
-use super::scene::gesture;
+use super::scene_text::gesture;
 use crate::panels::request::Effect;
 use crate::panels::scene::SceneBase;
 use crate::panels::status::MessageSeverity;

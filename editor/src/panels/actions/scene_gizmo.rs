@@ -72,7 +72,7 @@ pub(super) fn send(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
             if let Some(gesture) = change.gesture {
                 workspace.tools.drag_mut().begin(gesture);
             }
-            effects.extend(super::scene::change_text(workspace, &change));
+            effects.extend(super::scene_text::change_text(workspace, &change));
         }
         Err(refusal) => workspace.say(MessageSeverity::Warning, refusal.to_string()),
     }

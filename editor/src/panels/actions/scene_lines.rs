@@ -1,6 +1,6 @@
 //! Lines and paths of a scene: drawn, erased, followed.
 
-use super::scene::{self, gesture};
+use super::scene_text::{self, gesture};
 use super::tools;
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::panels::request::Effect;
@@ -91,7 +91,7 @@ fn draw_path(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
         true => path_points(&stroke.control, PATH_TOLERANCE.max(2.0 * stroke.unit)),
         false => stroke.corners.clone(),
     };
-    scene::add(workspace, &NewThing::DrawnPath(points_text(&points)?, is_smooth && points.len() > 2))
+    scene_text::add(workspace, &NewThing::DrawnPath(points_text(&points)?, is_smooth && points.len() > 2))
 }
 
 /// Adds a line to the project.
@@ -228,7 +228,7 @@ pub(in crate::panels) fn use_as_path(workspace: &mut Workspace) -> Option<Effect
         Some(lines.list()[line_named(lines, &name)?].id.as_deref().map(str::to_owned))
     });
     match line {
-        Some(Some(id)) => scene::add(workspace, &NewThing::LinePath(id)),
+        Some(Some(id)) => scene_text::add(workspace, &NewThing::LinePath(id)),
         Some(None) => {
             workspace.say(MessageSeverity::Info, "The line needs a name first: rename it in the list");
             None

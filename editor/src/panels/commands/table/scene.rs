@@ -1,7 +1,7 @@
 //! Scenes: things of the cast, actions of the timeline.
 
 use super::*;
-use crate::panels::actions::{scene, scene_clips, scene_lines};
+use crate::panels::actions::{scene, scene_clips, scene_lines, scene_text};
 use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
 
@@ -10,11 +10,11 @@ commands! {
     ProjectFromScene => When::Scene, "New project from this scene", [], "Writes a project (.meproj) and a file for drawn lines next to the script, and opens the project", scene_lines::project_from_scene;
     AddRole => When::Scene, "Add role…", [], "Adds a figure to the scene: a model whose takes it can play", |w| Some(Effect::Choose(FileChoice::Role, w.read().model_folder()));
     AddProp => When::Scene, "Add prop…", [], "Adds an object to the scene: a model that stands somewhere or is carried", |w| Some(Effect::Choose(FileChoice::Prop, w.read().model_folder()));
-    AddSceneCamera => When::Scene, "Add camera", [], "Adds a camera to the scene", |w| scene::add(w, &NewThing::Camera);
-    AddLight => When::Scene, "Add light", [], "Adds a sun to the scene", |w| scene::add(w, &NewThing::Light);
-    AddEffect => When::Scene, "Add effect", [], "Adds rain to the scene; it is off until an action turns it on", |w| scene::add(w, &NewThing::Effect);
-    AddPath => When::Scene, "Add path", [], "Adds a path that roles can follow", |w| scene::add(w, &NewThing::Path);
-    AddMark => When::Scene, "Add mark", [], "Adds a place to which roles can go", |w| scene::add(w, &NewThing::Mark);
+    AddSceneCamera => When::Scene, "Add camera", [], "Adds a camera to the scene", |w| scene_text::add(w, &NewThing::Camera);
+    AddLight => When::Scene, "Add light", [], "Adds a sun to the scene", |w| scene_text::add(w, &NewThing::Light);
+    AddEffect => When::Scene, "Add effect", [], "Adds rain to the scene; it is off until an action turns it on", |w| scene_text::add(w, &NewThing::Effect);
+    AddPath => When::Scene, "Add path", [], "Adds a path that roles can follow", |w| scene_text::add(w, &NewThing::Path);
+    AddMark => When::Scene, "Add mark", [], "Adds a place to which roles can go", |w| scene_text::add(w, &NewThing::Mark);
     LineAsPath => When::Scene, "Use line as path", [], "Adds a path along the selected line, which roles can follow", scene_lines::use_as_path;
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected line of the project", scene_lines::delete;
