@@ -22,6 +22,16 @@ pub(in crate::panels) struct Scrub {
     resume: Option<Id>,
 }
 
+/// A ruler on which the playhead is dragged, in one frame.
+#[derive(Clone, Copy)]
+pub(in crate::panels) struct ScrubRuler<'a> {
+    pub(in crate::panels) head: Rect,
+    /// Its accessible name.
+    pub(in crate::panels) name: &'static str,
+    pub(in crate::panels) scale: &'a TimeScale,
+    pub(in crate::panels) context: &'a PanelContext<'a>,
+}
+
 /// The drags on the ruler.
 #[derive(Debug, Default)]
 pub(super) struct Head {
@@ -96,16 +106,16 @@ pub(in crate::panels) fn ticks(
 }
 
 impl Scrub {
-    /// Handles input on `head`; `name` is its accessible name.
-    pub(in crate::panels) fn show(
+    /// Lets the playhead follow the pointer on a ruler, and returns the ruler's response. `seconds` returns where the playhead goes for a
+    /// time under the pointer, with snapping or without it; `None` leaves the playhead where it is.
+    pub(in crate::panels) fn follow(
         &mut self,
         ui: &Ui,
-        head: Rect,
-        name: &'static str,
-        scale: &TimeScale,
-        context: &PanelContext<'_>,
+        ruler: &ScrubRuler<'_>,
+        seconds: impl FnOnce(f32, bool) -> Option<f32>,
         requests: &mut Vec<Request>,
-    ) {
+    ) -> Response {
+        let ScrubRuler { head, name, scale, context } = *ruler;
         let response = ui.interact(head, ui.scope_id().with(name), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::slider(true, f64::from(context.time()), name));
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
@@ -127,12 +137,29 @@ impl Scrub {
             let window = scale.window;
             let time = f64::from(scale.time_at(pointer.x));
             let time = between(time, window.start, window.start + window.length) as f32;
-            let snap = context.keys.snap() != modifiers.command;
-            requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, context) } else { time }));
+            let snaps = context.keys.snap() != modifiers.command;
+            requests.extend(seconds(time, snaps).map(Request::Seek));
         }
         if !down && let Some(command) = self.resume.take() {
             requests.push(Request::Command(command));
         }
+        response
+    }
+
+    /// Handles input on `head`; `name` is its accessible name.
+    pub(in crate::panels) fn show(
+        &mut self,
+        ui: &Ui,
+        head: Rect,
+        name: &'static str,
+        scale: &TimeScale,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let ruler = ScrubRuler { head, name, scale, context };
+        let seconds =
+            |time: f32, snaps: bool| Some(if snaps { to_key_or_frame(time, scale, context) } else { time });
+        let response = self.follow(ui, &ruler, seconds, requests);
         if response.double_clicked() {
             requests.push(Request::Command(Id::FitKeys));
         }

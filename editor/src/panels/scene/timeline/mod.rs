@@ -40,7 +40,7 @@ pub struct SceneTimeline {
     /// The part of time that is shown during a drag, whatever the scene's length becomes by it.
     held: Option<TimeWindow>,
     drag: BarDragging,
-    scrub: ruler::SceneScrub,
+    scrub: dope::Scrub,
     menu: lane_menu::SceneMenu,
 }
 
@@ -154,7 +154,7 @@ impl SceneTimeline {
         paint::bars(&painter, &sheet, self.drag.hovered());
         self.drag.update(ui, &response, &sheet, requests);
         self.menu.show(&response, &self.drag, &sheet, requests);
-        self.scrub.show(ui, &painter, &sheet, &mut moved);
+        ruler::show(&mut self.scrub, ui, &painter, &sheet, &mut moved);
         paint::playhead(&painter, &sheet);
         gutter::show(ui, &sheet, requests);
         gutter::tools(ui, Rect::from_min_max(rect.min, pos2(left, head.bottom())), context, requests);
