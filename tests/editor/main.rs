@@ -123,6 +123,7 @@ mod timeline_weight;
 mod undo_selection;
 mod unplugged;
 mod viewport_control;
+mod viewport_hidden;
 mod viewport_tools;
 mod viewport_tools_fuzz;
 mod viewport_tools_ik;

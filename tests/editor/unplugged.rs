@@ -86,7 +86,7 @@ fn other_steps(animator: &Animator, known: &[Gesture]) -> usize {
 
 #[test]
 fn a_drag_without_a_release_leaves_nothing_held_and_no_partial_edit() {
-    let seed = seed(1);
+    let seed = seed(0x756e_706c);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
     let rounds = 1000;

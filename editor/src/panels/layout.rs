@@ -5,7 +5,7 @@ use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::{Panel, PanelPlace, VIEWPORT, timeline};
-use egui::{Color32, Frame, Stroke, Ui, Visuals, WidgetText};
+use egui::{Color32, Frame, Rect, Stroke, Ui, Visuals, WidgetText};
 use egui_tiles::{
     Behavior, Container, Linear, LinearDir, ResizeState, SimplificationOptions, TabState, Tabs, Tile, TileId,
     Tiles, Tree, UiResponse,
@@ -116,9 +116,15 @@ impl Layout {
     ) {
         let viewport = self.find(VIEWPORT);
         let unfit = self.hide_unfit(panels, context.scene().is_some());
-        let mut drag = LayoutDrag { panels, context, requests, viewport, changed: false };
+        let mut drag =
+            LayoutDrag { panels, context, requests, viewport, draws_viewport: false, changed: false };
         self.tree.ui(&mut drag, ui);
+        let draws_viewport = drag.draws_viewport;
         self.changed |= drag.changed;
+        if !draws_viewport {
+            // Behind another tab, or closed: what is over it covers it whole, so that its tools leave the mouse to the panels there.
+            requests.push(Request::Shields(vec![Rect::EVERYTHING]));
+        }
         for tile in unfit {
             self.tree.set_visible(tile, true);
         }
@@ -187,6 +193,8 @@ struct LayoutDrag<'a> {
     context: &'a PanelContext<'a>,
     requests: &'a mut Vec<Request>,
     viewport: Option<TileId>,
+    /// Whether the viewport was drawn in this frame.
+    draws_viewport: bool,
     changed: bool,
 }
 
@@ -197,6 +205,7 @@ impl Behavior<Pane> for LayoutDrag<'_> {
         };
         ui.set_clip_rect(ui.max_rect().intersect(ui.clip_rect()));
         if pane.0 == VIEWPORT {
+            self.draws_viewport = true;
             panel.show(ui, self.context, self.requests);
         } else {
             let fill = Theme::of(ui).panel;

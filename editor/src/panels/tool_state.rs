@@ -65,7 +65,12 @@ impl ToolState {
     }
 
     /// Sets the rectangle of the viewport and those over it.
-    pub(super) fn place(&mut self, viewport: Area, shields: impl Iterator<Item = Area>, camera: &Camera) {
+    pub(super) fn place(
+        &mut self,
+        viewport: Area,
+        shields: impl Iterator<Item = Area> + Clone,
+        camera: &Camera,
+    ) {
         self.controls.place(viewport, shields);
         self.controls.look(camera);
     }

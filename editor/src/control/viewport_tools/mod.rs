@@ -158,13 +158,17 @@ impl ViewportTools {
         &mut self.owner.line.1
     }
 
-    /// Sets the area of the viewport and of what covers it, points from the top left of the window. Allocates only when
-    /// more covers it than before.
-    pub fn place(&mut self, picture: Area, shields: impl Iterator<Item = Area>) {
+    /// Sets the area of the viewport and of what covers it, points from the top left of the window. Where one of the shields covers all of
+    /// it, its tools have no area. Allocates only when more covers it than before.
+    pub fn place(&mut self, picture: Area, shields: impl Iterator<Item = Area> + Clone) {
         let Self { framework, owner, .. } = self;
         framework.resize(picture.max);
+        let is_covered = shields.clone().any(|shield| shield.contains(&picture));
         // The edge is for resizing the panels.
-        let inside = Area::new(picture.min + EDGE, picture.max - EDGE);
+        let inside = match is_covered {
+            true => Area::default(),
+            false => Area::new(picture.min + EDGE, picture.max - EDGE),
+        };
         if framework.area(owner.picture.0) != Some(inside) {
             framework.move_control(owner.picture.0, inside);
             for (id, _) in owner.tools() {
