@@ -299,7 +299,13 @@ impl<'a> TextScanner<'a> {
     /// Returns a token as a finite number; `what` describes it.
     #[inline]
     pub(super) fn number_of(&self, token: TextToken<'_>, what: &str) -> Result<f64, ImportError> {
-        match parse_number(token.text) {
+        // With what follows the token, eight characters are there at once.
+        let rest = self.bytes.get(token.at..).unwrap_or(token.text);
+        let found = match short_decimal(rest) {
+            Some((number, length)) if length == token.text.len() => Some(number),
+            Some(_) | None => parse_number(token.text),
+        };
+        match found {
             Some(number) if number.is_finite() => Ok(number),
             found => Err(self.no_number(token, what, found.is_some())),
         }
