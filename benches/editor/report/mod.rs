@@ -8,6 +8,6 @@ use dragonfly_kit::figures::FigurePage;
 pub(crate) static PAGE: FigurePage = FigurePage::new(
     "benches/editor/README.md",
     "benches/editor/results",
-    &["drag", "timeline", "frame", "edits", "save"],
+    &["drag", "timeline", "frame", "edits", "save", "convert"],
     tables::all,
 );

@@ -16,8 +16,8 @@ const ACTIONS: [&str; 6] =
 
 /// Returns all tables with their names, in no order.
 pub(super) fn all(recorded: &RecordedResults) -> Result<Vec<(&'static str, String)>, String> {
-    let [drags, timeline, frame, edits, save] =
-        ["drag", "timeline", "frame", "edits", "save"].map(|name| recorded.of(name));
+    let [drags, timeline, frame, edits, save, convert] =
+        ["drag", "timeline", "frame", "edits", "save", "convert"].map(|name| recorded.of(name));
     Ok(vec![
         ("run", run(recorded)),
         ("drag", drag(drags)?),
@@ -29,6 +29,7 @@ pub(super) fn all(recorded: &RecordedResults) -> Result<Vec<(&'static str, Strin
         ("large-edits", large(edits)?),
         ("save", saves(save)?),
         ("save-layer", layer_saves(save)?),
+        ("convert", conversions(convert)?),
     ])
 }
 
@@ -221,4 +222,17 @@ fn layer_saves(results: &Results) -> Result<String, String> {
         table += &line(&[vec![variant.to_owned()], cells].concat());
     }
     filled("save-layer", table)
+}
+
+fn conversions(results: &Results) -> Result<String, String> {
+    let mut table = header(&["files", "time", "of the cores in use", "at least"]);
+    let percent = |idle: f64| format!("{:.0} %", (1.0 - idle) * 100.0);
+    for variant in results.variants("clips") {
+        let value = |metric: &str| results.value("clips", variant, metric);
+        let Some(took) = value("time").map(time) else { continue };
+        let goal = value(&format!("{GOAL}idle")).map_or_else(none, percent);
+        let used = value("idle").map_or_else(none, percent);
+        table += &line(&[variant.to_owned(), took, used, goal]);
+    }
+    filled("convert", table)
 }
