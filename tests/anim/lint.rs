@@ -2,6 +2,7 @@
 
 use super::support::{bone, take};
 use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
+use dragonfly_anim::joint::{AngleRange, Hinge, JointLimit};
 use dragonfly_anim::lint::{LintFinding, LintRule, LintThresholds, lint_take};
 use glam::{Quat, Vec3};
 use std::f32::consts::TAU;
@@ -167,6 +168,27 @@ fn the_gap_of_a_loop_is_measured_only_when_it_is_asked_for() {
     let found = gaps(&take, &asked);
     assert_eq!(found.len(), 4);
     assert!((found[0].amount - 300.0).abs() < 0.1, "{found:?}");
+}
+
+#[test]
+fn a_joint_that_is_turned_beyond_its_limit_is_found_with_the_angle() {
+    // The shin turns about x by 0.3 rad to each side: 17.19 degrees.
+    let knee = |max: f32| {
+        let mut limits = LintThresholds::default();
+        limits
+            .joints
+            .set(2, JointLimit::Hinge(Hinge { axis: Vec3::X, range: AngleRange::degrees(-20.0, max) }));
+        lint(&clean(), &limits)
+    };
+    assert_eq!(knee(18.0), []);
+    let found = knee(10.0);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(
+        (found[0].rule, found[0].rule.unit(), found[0].bone, found[0].frame),
+        (LintRule::JointLimit, "°", 2, 15)
+    );
+    assert!((found[0].amount - 7.189).abs() < 1e-2, "{found:?}");
+    assert_eq!(knee(16.5), [], "less than a degree is not reported");
 }
 
 #[test]

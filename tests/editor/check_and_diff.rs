@@ -146,6 +146,33 @@ fn the_defects_of_takes_are_listed_with_bone_frame_amount_and_unit() {
 }
 
 #[test]
+fn limits_of_joints_beside_a_model_are_used_for_its_takes() {
+    let folder = Folder::new("check-joints");
+    let model = folder.join("Fox.glb");
+    std::fs::copy(fox(), &model).expect("copied");
+    let beyond = |joint: &str, code: i32| {
+        let rules = r#""foot_slide":null,"floor":null,"jitter":null,"stretch":null,"spare_keys":null,"flip":null,"pop":null"#;
+        let content = format!(r#"{{{rules},"joints":{{"b_Neck_04":{joint}}}}}"#);
+        std::fs::write(folder.join("Fox.check.json"), content).expect("written");
+        let found = run(["check", text(&model), "--takes", "--json"]).expect(code).json();
+        let rows = found[0]["takes"].as_array().cloned().unwrap_or_default();
+        rows.into_iter().map(|row| row["amount"].as_f64().expect("an amount")).collect::<Vec<_>>()
+    };
+    // The neck may not turn at all: each take turns it by some degrees, and by less than 170.
+    let none = beyond(r#"{"ball":{"axis":"x","swing":0,"twist":[0,0]}}"#, 1);
+    assert_eq!(none.len(), 3, "{none:?}");
+    let least = none.iter().copied().fold(f64::INFINITY, f64::min);
+    let round =
+        beyond(&format!(r#"{{"ball":{{"axis":"x","swing":{},"twist":[-170,170]}}}}"#, least - 1.5), 1);
+    assert!(
+        !round.is_empty() && round.iter().zip(&none).all(|(some, all)| some < all),
+        "{round:?} of {none:?}"
+    );
+    assert_eq!(beyond(r#"{"ball":{"axis":"x","swing":170,"twist":[-180,180]}}"#, 0), [0.0; 0]);
+    assert_eq!(beyond(r#"{"hinge":{"axis":[0,0,0],"range":[0,1]}}"#, 2), [0.0; 0]);
+}
+
+#[test]
 fn wrong_thresholds_are_an_input_error_that_names_them() {
     let folder = Folder::new("check-thresholds");
     let limits = folder.join("lint.json");
@@ -155,6 +182,13 @@ fn wrong_thresholds_are_an_input_error_that_names_them() {
         (r#"{"pop":"much"}"#, "\"pop\" has to be a number"),
         (r#"{"rate":0}"#, "above 0"),
         (r#"{"up":"w"}"#, "\"up\" has to be"),
+        (r#"{"joints":[]}"#, "\"joints\" has to be an object"),
+        (r#"{"joints":{"Head":{"screw":{}}}}"#, "the joint of \"Head\": unknown variant `screw`"),
+        (r#"{"joints":{"Head":{"hinge":{"axis":[0,0,0],"range":[0,1]}}}}"#, "an axis has no direction"),
+        (
+            r#"{"joints":{"Nose":{"hinge":{"axis":"x","range":[0,1]}}}}"#,
+            "a bone \"Nose\" that the model does not have",
+        ),
     ] {
         std::fs::write(&limits, content).expect("written");
         let outcome = run(["check", "demo:", "--takes", "--thresholds", text(&limits)]).expect(2);

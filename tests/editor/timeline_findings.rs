@@ -18,7 +18,7 @@ fn wanted(animator: &mut Animator) -> Option<TakeCheck> {
 
 /// Checks the take as the document does.
 fn check(animator: &mut Animator) {
-    let checked = wanted(animator).expect("a check").run().expect("findings");
+    let checked = wanted(animator).expect("a check").run(None).expect("findings");
     animator.harness.state_mut().state.checked(checked);
     animator.steps(3);
 }

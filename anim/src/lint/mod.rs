@@ -12,6 +12,7 @@
 //! | pop | step of one frame, beyond twice the steps before and after, mm |
 //! | flip | rotation of a bone within one frame, degrees |
 //! | stretch | difference of the length of a bone from its rest length, % |
+//! | joint_limit | angle by which a bone is turned beyond the limits of its joint, degrees |
 //! | loop_gap | distance between the last and the first position, mm |
 //! | spare_keys | share of the keys of a channel with a key on each frame that the others predict, % |
 //! | outside | time by which a key is outside of the range of the take, ms |
@@ -71,6 +72,7 @@ pub fn lint_take(
             LintRule::Pop => motion::pop(&frames, thresholds, &mut add),
             LintRule::Flip => motion::flip(&frames, &mut add),
             LintRule::Stretch => motion::stretch(&frames, skeleton, &mut add),
+            LintRule::JointLimit => motion::joint_limit(&frames, skeleton, thresholds, &mut add),
             LintRule::LoopGap => motion::loop_gap(&frames, thresholds, &mut add),
             LintRule::SpareKeys => keys::spare(take, rate, thresholds, &mut add),
             LintRule::Outside => keys::outside(take, &mut add),

@@ -7,6 +7,7 @@
 //! pop      |v(f)| − 2 max(|v(f−1)|, |v(f+1)|)   a step that its neighbors do not announce
 //! flip     angle between the rotations of f and f+1
 //! stretch  |length(f) / rest length − 1|
+//! limit    angle between the rotation of f and the nearest that the joint allows
 //! ```
 //!
 //! A quick movement has a large acceleration, but in one direction over several frames; a tremble changes its direction at each
@@ -17,6 +18,7 @@ use crate::contact::{Contact, detect_contacts, feet_by_name, take_slide};
 use crate::data::{BoneIndex, Skeleton};
 use crate::frames::TakeFrames;
 use crate::loops::loop_gaps;
+use crate::sample::rest_pose;
 use glam::Vec3;
 
 /// Bones shorter than this share of the longest are at the origin of their parent, and have no length to keep.
@@ -126,6 +128,25 @@ pub(super) fn stretch(frames: &TakeFrames, skeleton: &Skeleton, add: LintReport<
         }
         (frames.pose(frame, bone).translation.length() / length - 1.0).abs() * 100.0
     });
+}
+
+pub(super) fn joint_limit(
+    frames: &TakeFrames,
+    skeleton: &Skeleton,
+    thresholds: &LintThresholds,
+    add: LintReport<'_>,
+) {
+    for (bone, limit) in thresholds.joints.iter() {
+        let Some(rest) = skeleton.bones.get(bone as usize) else { continue };
+        let rest = rest_pose(rest).rotation;
+        let beyond = |frame: usize| limit.clamp(frames.pose(frame, bone).rotation, rest).by.to_degrees();
+        let all = (0..frames.len()).map(|frame| (frame, beyond(frame)));
+        // The first of several frames that are equally far beyond.
+        let worst = all.fold((0, 0.0), |worst, now| if now.1 > worst.1 { now } else { worst });
+        if worst.1 > 0.0 {
+            add(bone, frames.times()[worst.0], worst.1);
+        }
+    }
 }
 
 pub(super) fn loop_gap(frames: &TakeFrames, thresholds: &LintThresholds, add: LintReport<'_>) {

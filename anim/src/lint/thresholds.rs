@@ -1,6 +1,7 @@
 //! The rules of the lint of takes, their units and their thresholds.
 
 use crate::contact::{ContactThresholds, ContactTrack};
+use crate::joint::JointLimits;
 
 /// A defect that the lint of takes looks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,6 +18,8 @@ pub enum LintRule {
     Flip,
     /// A bone is longer or shorter than at rest.
     Stretch,
+    /// A bone is turned beyond the limits of its joint.
+    JointLimit,
     /// The end of the take is away from its start.
     LoopGap,
     /// A channel has a key on each frame that its neighbors predict.
@@ -27,13 +30,14 @@ pub enum LintRule {
 
 impl LintRule {
     /// All rules, in the order of reports.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Jitter,
         Self::FootSlide,
         Self::Floor,
         Self::Pop,
         Self::Flip,
         Self::Stretch,
+        Self::JointLimit,
         Self::LoopGap,
         Self::SpareKeys,
         Self::Outside,
@@ -48,6 +52,7 @@ impl LintRule {
             Self::Pop => "pop",
             Self::Flip => "flip",
             Self::Stretch => "stretch",
+            Self::JointLimit => "joint_limit",
             Self::LoopGap => "loop_gap",
             Self::SpareKeys => "spare_keys",
             Self::Outside => "outside",
@@ -60,7 +65,7 @@ impl LintRule {
             Self::Jitter => "mm/frame²",
             Self::FootSlide => "mm/s",
             Self::Floor | Self::Pop | Self::LoopGap => "mm",
-            Self::Flip => "°",
+            Self::Flip | Self::JointLimit => "°",
             Self::Stretch | Self::SpareKeys => "%",
             Self::Outside => "ms",
         }
@@ -75,6 +80,8 @@ pub struct LintThresholds {
     pub contacts: ContactThresholds,
     /// The contacts of the take, for foot slide. Where there are none, those of bones called feet are found.
     pub given: ContactTrack,
+    /// The limits of joints. A bone without one turns freely.
+    pub joints: JointLimits,
     /// Height of the floor in the model's unit.
     pub floor: f32,
     /// Tolerance within which a key is predicted by its neighbors: meters for translations, about half the angle in radians for
@@ -92,6 +99,7 @@ impl Default for LintThresholds {
             LintRule::Pop => Some(60.0),
             LintRule::Flip => Some(120.0),
             LintRule::Stretch => Some(5.0),
+            LintRule::JointLimit => Some(1.0),
             LintRule::LoopGap => None,
             LintRule::SpareKeys => Some(50.0),
             LintRule::Outside => Some(1.0),
@@ -100,6 +108,7 @@ impl Default for LintThresholds {
             limits,
             contacts: ContactThresholds::default(),
             given: ContactTrack::default(),
+            joints: JointLimits::new(),
             floor: 0.0,
             key_tolerance: 1e-5,
         }

@@ -10,10 +10,11 @@ use dragonfly_runtime::Job;
 impl Document {
     /// Checks a take in a job. The reply is [`DocumentReply::Checked`].
     pub(super) fn check_take(&mut self, check: TakeCheck) {
+        let model = self.open.as_ref().and_then(|open| open.file.path.clone());
         let begun = Job::start(
             &self.own,
             "check",
-            move |_| JobNews::Checked(check.run()),
+            move |_| JobNews::Checked(check.run(model.as_deref())),
             |panic| JobNews::Checked(Err(format!("the take could not be checked: {panic}"))),
         );
         match begun {

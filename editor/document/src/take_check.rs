@@ -1,8 +1,9 @@
 //! The check of a take for defects.
 
-use crate::adapter::stored_contacts;
+use super::take_thresholds::TakeThresholds;
 use dragonfly_anim::data::{Skeleton, Take};
-use dragonfly_anim::lint::{LintFinding, LintThresholds, lint_take};
+use dragonfly_anim::lint::LintFinding;
+use std::path::Path;
 use std::sync::Arc;
 
 /// A take to be checked.
@@ -28,18 +29,15 @@ pub struct CheckedTake {
 }
 
 impl TakeCheck {
-    /// Returns the defects with the usual thresholds. The contacts stored with the take are used for foot slide.
+    /// Returns the defects, with the thresholds beside `model` or else the usual ones; `None` stands for a model without a file.
     ///
     /// # Errors
     ///
-    /// The reason why the take cannot be checked.
-    pub fn run(&self) -> Result<CheckedTake, String> {
-        let given = stored_contacts(&self.take.extras, &self.skeleton);
-        let mut limits = LintThresholds::default();
-        limits.given = given;
-        limits.contacts.meters_per_unit = self.meters_per_unit;
-        let findings = lint_take(&self.take, &self.skeleton, self.rate, &limits);
-        let take = Arc::clone(&self.take);
-        findings.map(|findings| CheckedTake { take, findings }).map_err(|error| error.to_string())
+    /// The reason why the take cannot be checked, or what is wrong with the thresholds.
+    pub fn run(&self, model: Option<&Path>) -> Result<CheckedTake, String> {
+        let thresholds = model.map_or_else(|| Ok(TakeThresholds::default()), TakeThresholds::of_model)?;
+        let findings =
+            thresholds.with_unit(self.meters_per_unit).check(&self.take, &self.skeleton, self.rate)?;
+        Ok(CheckedTake { take: Arc::clone(&self.take), findings })
     }
 }

@@ -5,9 +5,9 @@ use super::choice::{load_checked, models_help, plain, source};
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::table::count;
-use super::take_lint::{TakeDefect, TakeThresholds, defects};
+use super::take_lint::{TakeDefect, defects};
 use dragonfly_anim::check::{RULES, Severity, check};
-use dragonfly_document::{Cancel, SceneLoadError, is_scene, load_scene};
+use dragonfly_document::{Cancel, SceneLoadError, TakeThresholds, is_scene, load_scene};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -18,9 +18,10 @@ use std::path::PathBuf;
 Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
 Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher, or with --takes, a take has a defect.\n\n\
 The script of a scene (.xml) is checked with the models that it names; findings have line and column.\n\n\
-With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, loop_gap (off), spare_keys and\n\
-outside. A figure of more than 20 m is taken to be in centimeters or millimeters. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
-\"up\": \"y\", \"floor_height\": 0, \"rate\": 30}; null switches a rule off.\n\n\
+With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, joint_limit,\n\
+loop_gap (off), spare_keys and outside. A figure of more than 20 m is taken to be in centimeters or millimeters. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
+\"up\": \"y\", \"floor_height\": 0, \"rate\": 30, \"joints\": {\"Knee.L\": {\"hinge\": {\"axis\": \"x\", \"range\": [0, 150]}}}}; null switches a\n\
+rule off. Without --thresholds, those of Fox.glb are read from Fox.check.json beside it, as the editor does.\n\n\
 Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json\n  \
 dragonfly check Fox.glb --takes --thresholds lint.json\n  dragonfly check duel.xml")]
 pub(super) struct CheckArguments {
@@ -32,7 +33,7 @@ pub(super) struct CheckArguments {
     /// Also measure defects of the motion of takes, each with bone, frame, amount and unit
     #[arg(long)]
     takes: bool,
-    /// Read the thresholds of --takes from a JSON file
+    /// Read the thresholds of --takes from a JSON file, instead of the one beside each model
     #[arg(long, value_name = "FILE", requires = "takes")]
     thresholds: Option<PathBuf>,
     /// Print one JSON document instead of text
@@ -68,10 +69,13 @@ impl RunCommand for CheckArguments {
     fn run(self) -> Result<(), Failure> {
         let mut reports = Vec::with_capacity(self.files.len());
         let mut failure = None;
-        let thresholds = self.thresholds.as_deref().map(TakeThresholds::read).transpose()?;
-        let thresholds = self.takes.then(|| thresholds.unwrap_or_default());
+        let given =
+            self.thresholds.as_deref().map(TakeThresholds::read).transpose().map_err(Failure::Input)?;
         for file in &self.files {
-            match CheckReport::of(file, self.deny, thresholds.as_ref()) {
+            let thresholds =
+                self.takes.then(|| given.clone().map_or_else(|| TakeThresholds::of_model(file), Ok));
+            let thresholds = thresholds.transpose().map_err(Failure::Input);
+            match thresholds.and_then(|thresholds| CheckReport::of(file, self.deny, thresholds.as_ref())) {
                 Ok(report) => reports.push(report),
                 // The files after it are still checked; the last unreadable one decides the exit
                 // code.

@@ -229,7 +229,7 @@ fn more() -> Vec<PictureCase> {
             if let Some(Effect::File(FileAction::Send(DocumentMessage::CheckTake(check)))) =
                 state.wanted_check()
             {
-                state.checked(check.run().expect("findings"));
+                state.checked(check.run(None).expect("findings"));
             }
         }),
         case("timeline-whole-take", "timeline", Typical, |window| {

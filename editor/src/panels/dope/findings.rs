@@ -76,6 +76,7 @@ fn title(rule: LintRule) -> &'static str {
         LintRule::Pop => "Jump",
         LintRule::Flip => "Flip",
         LintRule::Stretch => "Stretched bone",
+        LintRule::JointLimit => "Beyond the limit of the joint",
         LintRule::LoopGap => "Gap of the loop",
         LintRule::SpareKeys => "Keys without need",
         LintRule::Outside => "Key outside of the take",
@@ -120,6 +121,6 @@ fn fix(finding: &LintFinding, context: &PanelContext<'_>) -> Option<(String, Req
             };
             edit(format!("Reduce keys of {name} (1 mm)"), Edit::ReduceKeys(reduce))
         }
-        LintRule::Floor | LintRule::Stretch | LintRule::Outside => None,
+        LintRule::Floor | LintRule::Stretch | LintRule::JointLimit | LintRule::Outside => None,
     }
 }
