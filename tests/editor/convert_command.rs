@@ -55,6 +55,38 @@ fn a_file_converted_to_another_format_and_back_has_the_same_takes() {
 }
 
 #[test]
+fn bones_get_the_names_of_a_map() {
+    let folder = Folder::new("convert-map");
+    let (glb, map) = (folder.join("Named.glb"), folder.join("names.json"));
+    let fox = data("gltf/Fox.glb");
+    let pairs = r#"["b_Hip_01","pelvis"],["b_Head_05","b_Neck_04"],["b_Neck_04","b_Head_05"],["Ear","ear"]"#;
+    fs::write(&map, format!(r#"{{"bone_map":1,"bones":[{pairs}]}}"#)).expect("written");
+    let convert = || run(["convert", text(&fox), "-o", text(&glb), "--map", text(&map), "--json"]);
+    let report = convert().expect(0).text().to_owned();
+    assert!(report.contains("the map names \\\"Ear\\\", which is no bone of it"), "{report}");
+    let bones = |file: &Path| -> Vec<String> {
+        let info = run(["info", text(file), "--json"]).expect(0).json();
+        let rows = info["bones"].as_array().cloned().unwrap_or_default();
+        rows.iter().map(|row| row["name"].as_str().unwrap_or_default().to_owned()).collect()
+    };
+    let renamed = |name: String| match &*name {
+        "b_Hip_01" => "pelvis".to_owned(),
+        "b_Head_05" => "b_Neck_04".to_owned(),
+        "b_Neck_04" => "b_Head_05".to_owned(),
+        _ => name,
+    };
+    let wanted: BTreeSet<String> = bones(&fox).into_iter().map(renamed).collect();
+    assert!(wanted.len() > 20);
+    assert_eq!(bones(&glb).into_iter().collect::<BTreeSet<_>>(), wanted);
+    // A name for two bones would make their keys go to one of them.
+    fs::write(&map, r#"{"bone_map":1,"bones":[["b_Hip_01","b_Head_05"]]}"#).expect("written");
+    let refused = convert().expect(2).text().to_owned();
+    assert!(refused.contains("the map gives two bones the name"), "{refused}");
+    fs::write(&map, "[]").expect("written");
+    assert!(convert().expect(2).stderr.contains("names.json"), "the file of the map is named");
+}
+
+#[test]
 fn a_folder_is_converted_with_its_folders_and_a_broken_file_stops_no_other() {
     let (folder, outputs) = collection("convert-folder");
     fs::write(folder.join("in/deep/broken.glb"), b"glTF, but cut").expect("a file");

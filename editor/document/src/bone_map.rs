@@ -6,12 +6,19 @@
 //!
 //! Each pair is a bone of the source and the bone of the target that it moves. The second bone of a name is `name #2`.
 
+use super::folder::read_file;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::retarget::SkeletonBinding;
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::fmt::Display;
+use std::path::Path;
 
 /// Version of the format.
 const VERSION: u32 = 1;
+
+/// The largest file that is read, bytes.
+const MOST_BYTES: u64 = 16 << 20;
 
 /// A bone map as it is in a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,7 +46,19 @@ impl BoneMap {
         Self { bone_map: VERSION, source: titles[0].to_owned(), target: titles[1].to_owned(), bones }
     }
 
-    /// Reads a map.
+    /// Reads the map in a file.
+    ///
+    /// # Errors
+    ///
+    /// The path and the reason.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let told = |error: &dyn Display| format!("{}: {error}", path.display());
+        let bytes = read_file(path, MOST_BYTES).map_err(|error| told(&error))?;
+        let text = String::from_utf8(bytes).map_err(|_| told(&"this is not UTF-8 text"))?;
+        Self::parse(&text).map_err(|error| told(&error))
+    }
+
+    /// Reads the text of a map.
     ///
     /// # Errors
     ///
@@ -50,6 +69,39 @@ impl BoneMap {
             return Err(format!("version {} of bone maps is newer than this program", map.bone_map));
         }
         Ok(map)
+    }
+
+    /// Gives each bone of a skeleton that is the first of a pair the name of the second. Returns the names that no bone has.
+    ///
+    /// # Errors
+    ///
+    /// Two bones would get the same name, or one that a bone outside of the map has.
+    pub fn rename(&self, skeleton: &mut Skeleton) -> Result<Vec<String>, String> {
+        let (mut renamed, mut missing) = (HashMap::new(), Vec::new());
+        let mut bones = HashMap::new();
+        for (bone, data) in skeleton.bones.iter().enumerate() {
+            bones.entry(data.name.as_str()).or_insert(bone);
+        }
+        for [from, to] in &self.bones {
+            let bone = bones.get(from.as_str()).copied();
+            match bone.or_else(|| found(skeleton, from).map(|bone| bone as usize)) {
+                Some(bone) => drop(renamed.insert(bone, to)),
+                None => missing.push(from.clone()),
+            }
+        }
+        let mut names = HashMap::new();
+        for (bone, data) in skeleton.bones.iter().enumerate() {
+            *names.entry(renamed.get(&bone).map_or(data.name.as_str(), |name| name)).or_insert(0) += 1;
+        }
+        if let Some(twice) =
+            renamed.values().find(|name| names.get(name.as_str()).is_some_and(|&count| count > 1))
+        {
+            return Err(format!("the map gives two bones the name {twice:?}"));
+        }
+        for (bone, name) in renamed {
+            skeleton.bones[bone].name.clone_from(name);
+        }
+        Ok(missing)
     }
 
     /// Returns the map as text, one pair a line.

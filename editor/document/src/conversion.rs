@@ -1,5 +1,6 @@
 //! Conversion of a model file into a new file of any format that is written.
 
+use super::bone_map::BoneMap;
 use super::import::{formats, written_format, written_formats};
 use super::source::{LoadError, file_name};
 use super::{Cancel, Folder, make_folder, read_file};
@@ -25,6 +26,8 @@ pub struct ConversionOrder {
     pub output: PathBuf,
     /// Units, axes and frame rate of the input that the user chose.
     pub conventions: Conventions,
+    /// Bones of the input that get other names.
+    pub renames: Option<Arc<BoneMap>>,
     /// Name of the preset of the format, see [`export`].
     pub preset: Option<String>,
     /// Place of the images, for formats that leave the choice, see [`places_textures`].
@@ -194,6 +197,14 @@ pub fn prepare_conversion(
     drop(bytes);
     let name = file_name(&order.output);
     let failed = |reason: String| ConversionError::Export { title: title.clone(), reason };
+    let mut warnings: Vec<String> = imported.warnings.iter().map(ToString::to_string).collect();
+    if let Some(renames) = &order.renames {
+        let skeleton = Arc::make_mut(&mut imported.model.animation.skeleton);
+        let missing = renames.rename(skeleton).map_err(failed)?;
+        warnings.extend(
+            missing.into_iter().map(|name| format!("the map names {name:?}, which is no bone of it")),
+        );
+    }
     if let Some(rate) = order.bake {
         for take in &mut imported.model.animation.takes {
             *take = Arc::new(
@@ -214,7 +225,7 @@ pub fn prepare_conversion(
         bytes: main.map_or(0, |file| file.bytes.len()),
         beside: beside.iter().map(|file| (file.name.clone(), file.bytes.len())).collect(),
         conversion: imported.conversion,
-        warnings: imported.warnings.iter().map(ToString::to_string).collect(),
+        warnings,
         lost: plan.lost.iter().map(ToString::to_string).collect(),
         takes: imported.model.animation.takes.len(),
     };

@@ -13,12 +13,9 @@ use dragonfly_anim::retarget::{
 };
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{AddTake, Edit};
-use dragonfly_document::{BoneMap, Cancel, Editable, read_file};
+use dragonfly_document::{BoneMap, Cancel, Editable};
 use serde::Serialize;
 use std::path::PathBuf;
-
-/// Largest size of a bone map, bytes.
-const MAP_BYTES: u64 = 16 << 20;
 
 /// Put takes of one figure on another: bones are mapped by the parts of the body, feet stay where they touch the ground
 #[derive(Clone, Debug, clap::Args)]
@@ -114,11 +111,8 @@ impl RetargetArguments {
         guess: &BindingGuess,
     ) -> Result<(SkeletonBinding, Vec<String>), Failure> {
         let Some(path) = &self.map else { return Ok((guess.binding.clone(), Vec::new())) };
-        let name = path.display().to_string();
-        let bytes = read_file(path, MAP_BYTES).map_err(|error| Failure::input(&name, error))?;
-        let text = String::from_utf8(bytes).map_err(|_| Failure::input(&name, "this is not UTF-8 text"))?;
-        let map = BoneMap::parse(&text).map_err(|error| Failure::input(&name, error))?;
-        map.binding(source, target).map_err(|error| Failure::input(&name, error))
+        let map = BoneMap::read(path).map_err(Failure::Input)?;
+        map.binding(source, target).map_err(|error| Failure::input(path.display(), error))
     }
 
     /// Returns the takes that were named; all where none was.

@@ -12,13 +12,14 @@ use super::import_options::{ImportArguments, positive};
 use super::output::print;
 use super::run_command::RunCommand;
 use dragonfly_document::{
-    ConversionOrder, checked_preset, checked_textures, written_extensions, written_format,
+    BoneMap, ConversionOrder, checked_preset, checked_textures, written_extensions, written_format,
 };
 use pipeline::{Orders, run};
 use plan::{Shard, plan};
 use report::ConvertReport;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
+use std::sync::Arc;
 pub(super) use texture_choice::TextureChoice;
 
 /// Convert files and whole folders to another format, on all processors; what a format cannot hold is listed
@@ -31,6 +32,7 @@ dragonfly convert captures -o models --to glb --scale 0.01\n  \
 dragonfly convert Hero.glb -o Hero.fbx --preset unity --textures beside\n  \
 dragonfly convert Hero.fbx -o Hero.bvh --bake 60\n  \
 dragonfly convert Hero.glb -o curves.csv\n  \
+dragonfly convert Walk.bvh -o Walk.fbx --map unreal.json\n  \
 dragonfly convert captures -o models --to glb --shard 2/8 --resume\n  \
 dragonfly convert captures -o models --to glb --job openjd --parts 32 > job.json\n  \
 dragonfly convert Hero.x -o Hero.glb --dry-run", written_extensions()))]
@@ -50,6 +52,9 @@ pub(super) struct ConvertArguments {
     /// Place of the images, for .fbx: in the file, or in files next to it, whose names begin with its own [default: embedded]
     #[arg(long, value_name = "PLACE", value_enum)]
     textures: Option<TextureChoice>,
+    /// Give bones other names, as in a map of bones: the first name of each pair becomes the second
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
     /// Write a key at every frame of this many frames per second, with lines between them, instead of the keys and curves; for .obj, a
     /// file for each frame of the first take
     #[arg(long, value_name = "FPS", value_parser = positive)]
@@ -92,8 +97,10 @@ impl RunCommand for ConvertArguments {
             return self.print_job(engine);
         }
         let files = plan(&self.inputs, &self.output, self.to.as_deref(), self.shard)?;
+        let renames = self.map.as_deref().map(BoneMap::read).transpose().map_err(Failure::Input)?;
         let choices = ConversionOrder {
             conventions: self.import.conventions(),
+            renames: renames.map(Arc::new),
             preset: self.preset,
             textures: self.textures.map(TextureChoice::placement),
             bake: self.bake,
@@ -132,6 +139,7 @@ impl ConvertArguments {
             ("--to", self.to.clone()),
             ("--preset", self.preset.clone()),
             ("--textures", self.textures.map(|textures| textures.placement().name().to_owned())),
+            ("--map", self.map.as_ref().map(|path| path.display().to_string())),
             ("--bake", self.bake.map(|rate| rate.to_string())),
             ("--jobs", self.jobs.map(|jobs| jobs.to_string())),
         ];

@@ -9,14 +9,9 @@ use clap::ValueEnum;
 use dragonfly_anim::retarget::FigureOptions;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{AddTakes, Edit};
-use dragonfly_document::{
-    BoneMap, Cancel, ClipNaming, ClipSettings, Editable, TakeNames, clip_takes, read_file,
-};
+use dragonfly_document::{BoneMap, Cancel, ClipNaming, ClipSettings, Editable, TakeNames, clip_takes};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
-
-/// Largest size of a bone map, bytes.
-const MAP_BYTES: u64 = 16 << 20;
 
 /// Add the takes of other files to a model: bones are matched by name, other rest poses and proportions are retargeted
 #[derive(Clone, Debug, clap::Args)]
@@ -146,7 +141,7 @@ impl AddedClip {
 
 impl AddClips {
     fn settings(&self) -> Result<ClipSettings, Failure> {
-        let map = self.map.as_deref().map(read_map).transpose()?;
+        let map = self.map.as_deref().map(BoneMap::read).transpose().map_err(Failure::Input)?;
         let naming = match self.names {
             Names::Automatic => ClipNaming::Automatic,
             Names::File => ClipNaming::File,
@@ -155,13 +150,6 @@ impl AddClips {
         let figure = FigureOptions { contacts: !self.no_contacts, ..FigureOptions::default() };
         Ok(ClipSettings { map, figure, naming })
     }
-}
-
-fn read_map(path: &Path) -> Result<BoneMap, Failure> {
-    let wrong = |error: &dyn std::fmt::Display| Failure::input(path.display(), error);
-    let bytes = read_file(path, MAP_BYTES).map_err(|error| wrong(&error))?;
-    let text = String::from_utf8(bytes).map_err(|_| wrong(&"this is not UTF-8 text"))?;
-    BoneMap::parse(&text).map_err(|error| wrong(&error))
 }
 
 fn failure_text(failure: &Failure) -> String {
