@@ -21,6 +21,7 @@ mod import_vrma;
 mod inbetween;
 mod journal_later;
 mod keeping;
+mod layer_of_take;
 mod layers;
 mod limits;
 mod many_bones;

@@ -164,12 +164,27 @@ fn a_take_of_another_file_becomes_one_edit_of_the_open_document_and_undo_removes
     });
     let (from, to) = (&source.model.animation.skeleton, &before.loaded.model.animation.skeleton);
     let binding = BindingGuess::of(from, to).binding;
-    let pairs =
+    let pairs: Vec<_> =
         (0..).zip(&binding.source_of).filter_map(|(to, from)| Some((from.as_ref().copied()?, to))).collect();
     let options = FigureOptions::default();
-    document.send(DocumentMessage::Retarget(RetargetOrder { take: 0, pairs, options }));
+    document.send(DocumentMessage::Retarget(RetargetOrder {
+        take: 0,
+        layer_of: None,
+        pairs: pairs.clone(),
+        options,
+    }));
     let after = document.wait_for_view(|view| view.takes.len() > before.takes.len());
     assert_eq!((after.takes.last().unwrap().name.as_str(), after.history.done), ("walk", 1));
+    document.change(Change::Undo);
+    same_takes(&document.view(), &before);
+    // The same keys as a layer over a take; its bones move as in the take, and the keys of the take stay.
+    let (layer_of, over) = (Some(TakeRef::Index(1)), &before.takes[1]);
+    document.send(DocumentMessage::Retarget(RetargetOrder { take: 0, layer_of, pairs, options }));
+    let layered = document.wait_for_view(|view| view.slots[1].layers().len() == 1);
+    assert_eq!(layered.slots[1].layers()[0].settings.name, "walk");
+    let keys = |take: &Take| take.tracks.iter().map(|track| track.key_times().len()).collect::<Vec<_>>();
+    assert_eq!(keys(&layered.slots[1].layers()[0].keys.result), keys(after.takes.last().unwrap()));
+    assert!(keys(over).iter().sum::<usize>() > 0 && layered.takes.len() == before.takes.len());
     document.change(Change::Undo);
     same_takes(&document.view(), &before);
     // The map goes to a file and back.

@@ -163,6 +163,22 @@ fn commands_copy_mask_move_and_merge_the_active_layer() {
 }
 
 #[test]
+fn another_take_becomes_a_layer_by_the_menu_of_the_panel() {
+    let mut animator = Animator::new(fixture::full());
+    for label in ["Layers", "More commands for layers", "Add layer from take"] {
+        animator.harness.get_by_label(label).click();
+        animator.steps(4);
+    }
+    let name = animator.edited.adapter().slots()[1].result.name.to_string();
+    animator.harness.query_all_by_label(&name).last().expect("an entry").click();
+    animator.steps(3);
+    let layers = animator.edited.adapter().slots()[0].layers();
+    assert_eq!(layers.len(), 1, "{}", animator.said());
+    assert_eq!(layers[0].settings.name, name);
+    assert!(layers[0].keys.result.keys() > 0);
+}
+
+#[test]
 fn whole_takes_are_edited_as_takes_while_a_layer_is_active() {
     let mut animator = animator();
     animator.request(Request::Command(Id::ReverseTake));

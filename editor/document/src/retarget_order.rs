@@ -4,21 +4,20 @@ use super::LoadedModel;
 use super::bone_map::BoneMap;
 use super::clips::{ClipNaming, take_name};
 use crate::adapter::ModelAdapter;
-use crate::edit::AddTake;
+use crate::edit::{AddLayer, AddTake, Edit, LayerKind, TakeRef};
 use dragonfly_anim::data::{BoneIndex, ModelData};
 use dragonfly_anim::retarget::{FigureOptions, SkeletonBinding, retarget_expressions, retarget_figure};
 use dragonfly_runtime::Job;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The largest bone map that is read, bytes.
-const MAP_BYTES: u64 = 16 << 20;
-
 /// A take of the source for the open model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RetargetOrder {
     /// Index of the take in the source.
     pub take: usize,
+    /// The take of the open model over which the result becomes a layer of poses; where absent, it becomes a take.
+    pub layer_of: Option<TakeRef>,
     /// Bones of the source and of the open model.
     pub pairs: Vec<(BoneIndex, BoneIndex)>,
     /// Options for the figure.
@@ -48,52 +47,60 @@ pub(super) enum RetargetNews {
     /// The source was read.
     Source(Result<Arc<LoadedModel>, String>),
     /// A take was computed, with a sentence about it.
-    Take(Result<(Box<AddTake>, String), String>),
+    Take(Result<(Box<Edit>, String), String>),
     /// A map was read.
     Map(Result<BoneMap, String>),
     /// A map was written.
     Written(Result<PathBuf, String>),
 }
 
-/// Reads a bone map.
-pub(super) fn read_map(path: &std::path::Path) -> Result<BoneMap, String> {
-    let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    let bytes = super::read_file(path, MAP_BYTES).map_err(|error| told(&error))?;
-    let text = String::from_utf8(bytes).map_err(|error| told(&error))?;
-    BoneMap::parse(&text).map_err(|error| told(&error))
-}
-
 /// Writes a bone map. A file that is no bone map, for example a model whose path was typed, is not overwritten.
 pub(super) fn write_map(path: &std::path::Path, map: &BoneMap) -> Result<(), String> {
-    if path.exists() && read_map(path).is_err() {
+    if path.exists() && BoneMap::read(path).is_err() {
         return Err(format!("{} exists and is no bone map: choose another name", path.display()));
     }
     let written = dragonfly_store::replace(path, map.to_text().as_bytes());
     written.map(|_| ()).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Returns the edit that adds the take to the model `target`, with the takes of `adapter`, and a sentence about it.
+/// Returns the edit that adds the take, or a layer with its keys, to the model `target`, with the takes of `adapter`, and a sentence about it.
 pub(super) fn computed(
     source: &LoadedModel,
     adapter: &ModelAdapter,
     target: &ModelData,
     order: &RetargetOrder,
-) -> Result<(Box<AddTake>, String), String> {
+) -> Result<(Box<Edit>, String), String> {
     let animation = &source.model.animation;
     let take = animation.takes.get(order.take).ok_or("the source has no such take")?;
     let (from, to) = (&*animation.skeleton, &*target.animation.skeleton);
     let binding = SkeletonBinding::from_map(from, to, &order.pairs).map_err(|error| error.to_string())?;
     let done =
         retarget_figure(take, from, to, &binding, &order.options).map_err(|error| error.to_string())?;
-    let is_used = |name: &str| adapter.slots().iter().any(|slot| slot.original.name == name);
     let base = take_name(&source.title, take, 1, ClipNaming::Automatic);
-    let numbered = |number: usize| if number == 1 { base.clone() } else { format!("{base} {number}") };
-    let name = (1..=adapter.slots().len() + 1).map(numbered).find(|name| !is_used(name)).unwrap_or_default();
     let feet = match done.contacts.len() {
         0 => String::new(),
         count => format!(", {count} contacts of feet within {:.1} mm", done.slide_after),
     };
-    let text = format!("Added {name}: {} bones move{feet}", binding.bound());
+    let facts = format!("{} bones move{feet}", binding.bound());
+    let mut add = AddTake::of(base.clone(), &done.take);
+    if let Some(over) = &order.layer_of {
+        let layer = AddLayer {
+            take: over.clone(),
+            name: base.clone(),
+            kind: LayerKind::Override,
+            bones: Vec::new(),
+            at: None,
+            copy: None,
+            keys_of: None,
+            tracks: add.tracks,
+        };
+        return Ok((Box::new(Edit::AddLayer(layer)), format!("Added the layer {base}: {facts}")));
+    }
+    let is_used = |name: &str| adapter.slots().iter().any(|slot| slot.original.name == name);
+    let numbered = |number: usize| if number == 1 { base.clone() } else { format!("{base} {number}") };
+    let name = (1..=adapter.slots().len() + 1).map(numbered).find(|name| !is_used(name)).unwrap_or_default();
+    let text = format!("Added {name}: {facts}");
     let shapes = retarget_expressions(take, &source.model.avatar, target);
-    Ok((Box::new(AddTake::of(name, &done.take).with_shapes(&shapes)), text))
+    add.name = name;
+    Ok((Box::new(Edit::AddTake(add.with_shapes(&shapes))), text))
 }

@@ -3,9 +3,8 @@
 use super::job::JobNews;
 use super::message::DocumentReply;
 use super::owner::Document;
-use super::retarget_order::{MapFile, RetargetNews, RetargetOrder, computed, read_map, write_map};
-use super::{Change, Loader, Source};
-use crate::edit::Edit;
+use super::retarget_order::{MapFile, RetargetNews, RetargetOrder, computed, write_map};
+use super::{BoneMap, Change, Loader, Source};
 use crate::text::sentence;
 use dragonfly_runtime::Job;
 use std::sync::Arc;
@@ -45,7 +44,7 @@ impl Document {
         self.retarget_job(
             "bone map",
             move |_| match file {
-                MapFile::Read(path) => RetargetNews::Map(read_map(&path)),
+                MapFile::Read(path) => RetargetNews::Map(BoneMap::read(&path)),
                 MapFile::Write(path, map) => RetargetNews::Written(write_map(&path, &map).map(|()| path)),
             },
             |panic| RetargetNews::Map(Err(panic.to_owned())),
@@ -78,7 +77,7 @@ impl Document {
                 self.reply(DocumentReply::SourceRead(source));
             }
             RetargetNews::Take(Ok((add, text))) => {
-                self.change(Change::Edit(Edit::AddTake(*add), None), None, now);
+                self.change(Change::Edit(*add, None), None, now);
                 // The view goes first: the status line shows the last message.
                 self.publish();
                 self.reply(DocumentReply::Notice(text));

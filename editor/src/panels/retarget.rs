@@ -16,7 +16,7 @@ use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::retarget::{BindingGuess, BoneRole, FigureOptions, SkeletonBinding};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{BoneMap, ClipOrder, DocumentMessage, LoadedModel, MapFile, RetargetOrder, Source};
-use egui::{Button, Key, Popup, Response, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2};
+use egui::{Button, Checkbox, Key, Popup, Response, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -37,6 +37,8 @@ pub(super) struct RetargetDialog {
     source_of: Vec<Option<BoneIndex>>,
     take: usize,
     contacts: bool,
+    /// Whether the result becomes a layer over the take that is shown.
+    as_layer: bool,
     /// The place of the source in the viewport; `None`: it is not shown.
     place: Option<SourcePlace>,
     shows_source: bool,
@@ -53,6 +55,7 @@ impl Default for RetargetDialog {
             source_of: Vec::new(),
             take: 0,
             contacts: true,
+            as_layer: false,
             place: None,
             shows_source: true,
         }
@@ -224,6 +227,12 @@ impl RetargetDialog {
             &switch,
             "Draws the skeleton of the file in the viewport, at the size of this model, in the pose of its take at the time of the playhead; the bone that moves the selected one is emphasized",
         );
+        let shown = context.shown_take();
+        let over = shown.map_or_else(|| "the take".to_owned(), |take| widgets::shortened(&take.name));
+        let choice = Checkbox::new(&mut self.as_layer, format!("As a layer over {over}"));
+        let choice = ui.add_enabled(shown.is_some(), choice);
+        let hint = "Adds a layer of poses with the keys to the take that is shown, instead of a new take; weight and bones of the layer can be changed in Layers";
+        widgets::hint_beside(&choice, hint);
         let SourcePlace { scale, offset } = place;
         let marked = context.selected().and_then(|bone| self.source_of.get(bone as usize).copied().flatten());
         let source = DialogPreview::Source { take: self.take, scale, offset, marked };
@@ -291,9 +300,15 @@ impl RetargetDialog {
                 .collect();
             let has_pairs = !pairs.is_empty();
             let able = self.take < takes.len() && has_pairs;
-            if ui.add_enabled(able, Button::new("Add take")).clicked() {
+            let shown = context.shown_take_ref();
+            let layer_of = shown.filter(|_| self.as_layer);
+            let title = if layer_of.is_some() { "Add layer" } else { "Add take" };
+            if ui.add_enabled(able, Button::new(title)).clicked() {
                 let options = FigureOptions { contacts: self.contacts, ..FigureOptions::default() };
-                send(requests, DocumentMessage::Retarget(RetargetOrder { take: self.take, pairs, options }));
+                send(
+                    requests,
+                    DocumentMessage::Retarget(RetargetOrder { take: self.take, layer_of, pairs, options }),
+                );
                 requests.push(Request::Overlay(None));
             }
             let button = ui.add_enabled(has_pairs, Button::new("Import files…"));

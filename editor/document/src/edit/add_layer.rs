@@ -1,11 +1,12 @@
 //! Adds a layer to a take, or a copy of one.
 
+use super::add_take::{GivenChannel, given_tracks};
 use super::kind::{EditKind, LayerUse};
 use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, LayerKind, LayerRef, TakeRef};
 use crate::adapter::plan::{Transaction, layer};
-use crate::adapter::{EditError, LayerVersions};
-use dragonfly_anim::data::Skeleton;
+use crate::adapter::{EditError, LayerVersions, TakeId};
+use dragonfly_anim::data::{Skeleton, Take};
 use dragonfly_anim::layers::LayerSettings;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -35,9 +36,15 @@ pub struct AddLayer {
     /// A layer of this take of which the new one is a copy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub copy: Option<LayerRef>,
+    /// A take whose keys the layer of poses gets, as they are seen with its layers; bones without keys in it stay as they are below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keys_of: Option<TakeRef>,
+    /// Keys that the layer of poses gets, for example those of a take that was retargeted from another model.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tracks: Vec<GivenChannel>,
 }
 
-map_references!(AddLayer { take, name, kind, bones }, |edit, map| {
+map_references!(AddLayer { take, name, kind, bones, keys_of, tracks }, |edit, map| {
     at: edit.at.map(|at| map.layer_place(&edit.take, at, None)),
     copy: edit.copy.as_ref().map(|layer| map.layer(layer)).transpose()?,
 });
@@ -50,7 +57,12 @@ impl EditKind for AddLayer {
     const LAYERS: LayerUse = LayerUse::TakeOnly;
 
     fn label(&self) -> &'static str {
-        if self.copy.is_some() { "Duplicate layer" } else { "Add layer" }
+        let has_keys = self.keys_of.is_some() || !self.tracks.is_empty();
+        match &self.copy {
+            Some(_) => "Duplicate layer",
+            None if has_keys => "Add layer from take",
+            None => "Add layer",
+        }
     }
 
     fn take(&self) -> Option<&TakeRef> {
@@ -65,6 +77,9 @@ impl EditKind for AddLayer {
         let take = work.take(&self.take)?;
         let name = layer::name(&self.name)?;
         let new = match &self.copy {
+            Some(_) if self.keys_of.is_some() || !self.tracks.is_empty() => {
+                return Err(EditError::Nothing("a copy of a layer has the keys of its source"));
+            }
             Some(source) => {
                 let layers = work.slot(take).layers();
                 let found = source.find_in(layers).ok_or(EditError::Nothing("there is no such layer"))?;
@@ -77,7 +92,11 @@ impl EditKind for AddLayer {
                 let color = LAYER_COLORS[work.slot(take).layers().len() % LAYER_COLORS.len()];
                 let settings =
                     LayerSettings { name, mode: self.kind.into(), bones, color, ..LayerSettings::default() };
-                layer::empty(work, take, settings)
+                let mut new = layer::empty(work, take, settings);
+                if let Some(keys) = self.keys(work, take)? {
+                    Arc::make_mut(&mut new.keys).set_keys(keys);
+                }
+                new
             }
         };
         layer::replace(work, take, |layers| {
@@ -95,6 +114,33 @@ impl EditKind for AddLayer {
             bones: from.bones(),
             at: from.optional(|from| from.below(3)),
             copy,
+            keys_of: from.optional(Arbitrary::take),
+            tracks: GivenChannel::arbitrary(from),
         }
+    }
+}
+
+impl AddLayer {
+    /// Returns the keys that the new layer gets; `None` where it gets none.
+    fn keys(&self, work: &mut Transaction, take: TakeId) -> Result<Option<Take>, EditError> {
+        let refused = |reason| Err(EditError::Nothing(reason));
+        let tracks = match (&self.keys_of, self.tracks.is_empty()) {
+            (None, true) => return Ok(None),
+            (Some(_), false) => return refused("a layer has the keys of a take or given ones, not both"),
+            (None, false) => given_tracks(work, &self.tracks)?,
+            (Some(other), true) => {
+                let other = work.take(other)?;
+                if other == take {
+                    return refused("a layer cannot have the keys of its own take");
+                }
+                work.slot(other).shown().tracks.clone()
+            }
+        };
+        if self.kind != LayerKind::Override {
+            return refused("only a layer of poses can have the keys of a take");
+        }
+        let keys = Take { tracks, ..Take::default() };
+        work.room_for_take(keys.keys())?;
+        Ok(Some(keys))
     }
 }

@@ -89,6 +89,23 @@ impl AddTake {
     }
 }
 
+/// Returns the tracks of all bones with these channels.
+pub(super) fn given_tracks(work: &Transaction, given: &[GivenChannel]) -> Result<Vec<Track>, EditError> {
+    let bones = 0..work.skeleton().len() as u32;
+    let mut tracks: Vec<Track> = bones.map(|bone| Track { bone, ..Track::default() }).collect();
+    for channel in given {
+        let bone = work.bone(&channel.bone)?;
+        channel.check()?;
+        let track = &mut tracks[bone as usize];
+        match channel.property {
+            Property::Translation => track.translation = channel.vectors(),
+            Property::Rotation => track.rotation = channel.rotations()?,
+            Property::Scale => track.scale = channel.vectors(),
+        }
+    }
+    Ok(tracks)
+}
+
 /// Checks the times of keys.
 pub(super) fn check_times(times: &[f32]) -> Result<(), EditError> {
     for &time in times {
@@ -128,6 +145,20 @@ impl GivenChannel {
             each
         };
         check_numbers("the values of a channel", &self.values, self.times.len() * per_key)
+    }
+
+    /// Returns some channels for random edits.
+    pub(super) fn arbitrary(from: &mut Arbitrary<'_>) -> Vec<Self> {
+        let count = from.below(3);
+        let channel = |_| {
+            let property = from.property();
+            let times: Vec<f32> = (0..1 + from.below(4)).map(|key| key as f32 * 0.25).collect();
+            let each = if property == Property::Rotation { 4 } else { 3 };
+            let count = times.len() * each;
+            let (bone, values) = (from.bone(), from.numbers(count));
+            Self { bone, property, interpolation: KeyInterpolation::Linear, times, values }
+        };
+        (0..count).map(channel).collect()
     }
 
     fn vectors(&self) -> Channel<Vec3> {
@@ -179,19 +210,8 @@ impl EditKind for AddTake {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        let mut take = Take { name: self.name.clone(), ..Take::default() };
-        take.tracks =
-            (0..work.skeleton().len() as u32).map(|bone| Track { bone, ..Track::default() }).collect();
-        for given in &self.tracks {
-            let bone = work.bone(&given.bone)?;
-            given.check()?;
-            let track = &mut take.tracks[bone as usize];
-            match given.property {
-                Property::Translation => track.translation = given.vectors(),
-                Property::Rotation => track.rotation = given.rotations()?,
-                Property::Scale => track.scale = given.vectors(),
-            }
-        }
+        let tracks = given_tracks(work, &self.tracks)?;
+        let mut take = Take { name: self.name.clone(), tracks, ..Take::default() };
         for given in &self.shapes {
             let track = given.track(work.adapter().shapes())?;
             if take.morphs.iter().any(|other| other.instance == track.instance) {
@@ -212,15 +232,7 @@ impl EditKind for AddTake {
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        let tracks = (0..from.below(3)).map(|_| {
-            let property = from.property();
-            let times: Vec<f32> = (0..1 + from.below(4)).map(|key| key as f32 * 0.25).collect();
-            let each = if property == Property::Rotation { 4 } else { 3 };
-            let count = times.len() * each;
-            let (bone, values) = (from.bone(), from.numbers(count));
-            GivenChannel { bone, property, interpolation: KeyInterpolation::Linear, times, values }
-        });
-        let tracks = tracks.collect();
+        let tracks = GivenChannel::arbitrary(from);
         let shapes = from.optional(|from| {
             let times: Vec<f32> = (0..1 + from.below(3)).map(|key| key as f32 * 0.5).collect();
             let weights = from.numbers(times.len());

@@ -12,7 +12,7 @@ use super::theme::Theme;
 use super::{Panel, PanelPlace, command_button, commands, menu, widgets};
 use dragonfly_document::Change;
 use dragonfly_document::adapter::TakeId;
-use dragonfly_document::edit::{Edit, LAYER_COLORS, MoveLayer, SetLayer, TakeRef};
+use dragonfly_document::edit::{AddLayer, Edit, LAYER_COLORS, LayerKind, MoveLayer, SetLayer, TakeRef};
 use egui::{Button, Color32, Frame, Margin, Popup, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2};
 use row::LayerRow;
 
@@ -63,6 +63,7 @@ impl Panel for Layers {
             let more = widgets::icon_button(ui, Icon::Down, "More commands for layers", false);
             Popup::menu(&more.on_hover_text("More commands for layers")).show(|ui| {
                 menu::item(ui, context, Id::AddOverrideLayer, false, requests);
+                menu::submenu(ui, "Add layer from take", |ui| from_take(ui, context, requests));
                 ui.separator();
                 entries(ui, context, requests);
             });
@@ -107,6 +108,32 @@ fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
         menu::submenu(ui, "Move to take", |ui| move_to_take(ui, context, layer, requests));
         menu::submenu(ui, "Color", |ui| colors(ui, context, layer, requests));
     }
+}
+
+/// Draws the takes whose keys a new layer of poses can have, such as one that was retargeted.
+fn from_take(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
+        for (index, other) in context.digest.takes.iter().enumerate() {
+            let is_other = context.playback.take != Some(index);
+            let button = Button::new(widgets::shortened(&other.name)).frame_when_inactive(false);
+            if ui.add_enabled(is_other, button).clicked()
+                && let Some(take) = context.shown_take_ref()
+            {
+                let edit = Edit::AddLayer(AddLayer {
+                    take,
+                    name: other.name.to_string(),
+                    kind: LayerKind::Override,
+                    bones: Vec::new(),
+                    at: None,
+                    copy: None,
+                    keys_of: Some(TakeRef::Index(index)),
+                    tracks: Vec::new(),
+                });
+                requests.push(Request::Change(Change::Edit(edit, None)));
+                ui.close();
+            }
+        }
+    });
 }
 
 /// Draws the takes to which the layer can be moved.
