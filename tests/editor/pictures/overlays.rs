@@ -6,6 +6,7 @@ use crate::workbench::{Window, Workbench};
 use dragonfly::panels::prompts::Overlay;
 use dragonfly_kit::document::fixture;
 use egui::{Vec2, vec2};
+use std::sync::Arc;
 
 /// The overlays: a name, the states in which the overlay is drawn, and why the other states are not. A new overlay does
 /// not compile without a row here.
@@ -94,6 +95,19 @@ pub(super) fn cases() -> Vec<PictureCase> {
         bench
     };
     cases.push(PictureCase { bench: Box::new(bench), ..rootless });
+    // The bones of both models are beside each other when the file is read.
+    let name = "overlays/retarget-source".to_owned();
+    let read = case(name, vec2(720.0, 640.0), Typical, Some(Overlay::Retarget));
+    let bench = || {
+        let mut bench = Typical.bench();
+        for panel in dragonfly::panels::all() {
+            bench.desk.toggle_panel(panel.id());
+        }
+        bench.state.source_read(Arc::clone(&fixture::hips_on_top().loaded));
+        bench.state.show_overlay(Some(Overlay::Retarget));
+        bench
+    };
+    cases.push(PictureCase { bench: Box::new(bench), ..read });
     // A file that is held over the window; the hint fills it.
     let holds = |window: &mut Window| window.input_mut().hovered_files.push(egui::HoveredFile::default());
     let drop = case("overlays/drop-a-file".to_owned(), vec2(480.0, 240.0), Typical, None);
