@@ -77,6 +77,14 @@ fn the_source_of_a_take_stands_beside_the_model_while_the_dialog_is_open() {
     animator.harness.query_all_by_label("rests").last().expect("an entry").click();
     animator.steps(3);
     assert_eq!(marked(&animator), None, "nothing moves it");
+    // What is typed filters the menu, and Enter takes the first that is left.
+    let wanted = animator.harness.state().state.read().bone_name(7);
+    click(&mut animator, &format!("The bone that moves {name}: rests"));
+    animator.harness.event(egui::Event::Text(wanted));
+    animator.steps(3);
+    animator.harness.key_press(egui::Key::Enter);
+    animator.steps(3);
+    assert_eq!(marked(&animator), Some(7));
     animator.harness.get_by_label("Take: Jump").click();
     animator.steps(3);
     // The last one is in the menu; the panel of takes has another.
@@ -150,7 +158,10 @@ fn a_take_of_another_file_is_compared_bone_by_bone_of_the_same_names() {
     let mut animator = Animator::new(fixture::full());
     let name = animator.harness.state().state.read().shown_take().expect("a take").name.clone();
     let file = other(&[("Jump", 1.0, 5), (&name, 2.0, 5)]);
-    animator.harness.state_mut().state.compared_read(Arc::clone(&file));
+    let effect = animator.harness.state_mut().state.compared_read(Arc::clone(&file));
+    let Some(Effect::ShowPanel(panel)) = effect else { panic!("{effect:?}") };
+    assert!(animator.harness.query_by_label_contains("Compare with: ").is_none(), "the panel is behind another");
+    animator.harness.state_mut().desk.show_panel(panel);
     animator.steps(3);
     let panels = animator.harness.state().state.read();
     assert_eq!(panels.compared, CompareWith::File(1), "the take of the same name");
@@ -166,9 +177,7 @@ fn a_take_of_another_file_is_compared_bone_by_bone_of_the_same_names() {
     }
     let shown = second(&animator).expect("a skeleton");
     assert!(shown.other.is_some_and(|other| Arc::ptr_eq(&other.skeleton, skeleton)));
-    // The panel lists the takes of the file.
-    animator.harness.get_by_label("Differences").click();
-    animator.steps(3);
+    // The panel comes to the front and lists the takes of the file.
     animator.harness.get_by_label_contains("Compare with: other.glb").click();
     animator.steps(3);
     animator.harness.get_by_label("other.glb – Jump").click();
@@ -182,7 +191,8 @@ fn a_take_of_another_file_is_compared_bone_by_bone_of_the_same_names() {
 #[test]
 fn a_file_without_takes_or_without_a_common_bone_is_reported() {
     let mut animator = Animator::new(fixture::full());
-    animator.harness.state_mut().state.compared_read(other(&[]));
+    let effect = animator.harness.state_mut().state.compared_read(other(&[]));
+    assert_eq!(effect, None, "there is nothing to show");
     assert!(animator.said().contains("other.glb has no takes"), "{}", animator.said());
     assert_eq!(animator.harness.state().state.read().compared, CompareWith::Nothing);
     let mut skeleton = fixture::skeleton(1);

@@ -92,6 +92,7 @@ impl Workbench {
             match self.state.execute(request) {
                 Some(Effect::Change(change)) => self.change(change),
                 Some(Effect::TogglePanel(id)) => self.desk.toggle_panel(id),
+                Some(Effect::ShowPanel(id)) => self.desk.show_panel(id),
                 _ => {}
             }
         }

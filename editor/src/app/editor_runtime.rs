@@ -180,6 +180,7 @@ impl EditorRuntime {
             }
             Effect::FullScreen => interface.toggle_full_screen(),
             Effect::TogglePanel(id) => interface.toggle_panel(id),
+            Effect::ShowPanel(id) => interface.show_panel(id),
             Effect::ResetLayout => interface.reset_layout(),
             Effect::RetryDevice => graphics.resume(),
             Effect::NewProject(script) => {

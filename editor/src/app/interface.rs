@@ -222,6 +222,11 @@ impl Interface {
         self.desk.toggle_panel(id);
     }
 
+    /// Shows a panel, in front of those in the same place.
+    pub fn show_panel(&mut self, id: &str) {
+        self.desk.show_panel(id);
+    }
+
     /// Moves every panel back to its first place.
     pub fn reset_layout(&mut self) {
         self.desk.reset_layout();

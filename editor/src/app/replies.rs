@@ -89,7 +89,10 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
             state.say(MessageSeverity::Info, "There is no unsaved work of an earlier run");
         }
         DocumentReply::SourceRead(source) => state.source_read(source),
-        DocumentReply::ComparedRead(file) => state.compared_read(file),
+        DocumentReply::ComparedRead(file) => {
+            let effect = state.compared_read(file);
+            interface.effects.extend(effect);
+        }
         DocumentReply::MapRead(map) => state.map_read(map),
         DocumentReply::Exported(order, done) => state.exported(order, done),
         DocumentReply::Checked(checked) => state.checked(checked),

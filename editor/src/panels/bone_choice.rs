@@ -5,7 +5,7 @@ use super::style::ROW;
 use super::theme::Theme;
 use super::widgets;
 use dragonfly_anim::data::BoneIndex;
-use egui::{Align, Button, Layout, Popup, Response, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Align, Button, Key, Layout, Popup, Response, RichText, ScrollArea, TextEdit, Ui};
 
 /// The names among which a bone is chosen.
 pub(super) struct BoneChoice<'a> {
@@ -35,13 +35,22 @@ impl BoneChoice<'_> {
         Popup::menu(&button).show(|ui| {
             let id = button.id.with("filter");
             let mut filter = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
-            ui.add(
-                TextEdit::singleline(&mut filter).hint_text("Filter").desired_width(self.width.max(160.0)),
-            );
+            let width = self.width.max(160.0);
+            let field = ui.add(TextEdit::singleline(&mut filter).hint_text("Filter").desired_width(width));
+            // What is typed while the menu is open filters it.
+            if button.clicked() {
+                filter.clear();
+                field.request_focus();
+            }
+            let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let wanted = filter.to_lowercase();
             let fits: Vec<usize> = (0..self.names.len())
                 .filter(|&bone| self.names[bone].to_lowercase().contains(&wanted))
                 .collect();
+            if let Some(&first) = fits.first().filter(|_| entered) {
+                picked = Some(Some(first as BoneIndex));
+                ui.close();
+            }
             ui.data_mut(|data| data.insert_temp(id, filter));
             if let Some(none) = self.none
                 && ui.add(Button::selectable(chosen.is_none(), none)).clicked()

@@ -97,6 +97,15 @@ impl Layout {
         }
     }
 
+    /// Shows the panel, in front of those in the same place.
+    pub fn bring_to_front(&mut self, id: &str) {
+        if let Some(wanted) = self.find(id) {
+            self.tree.set_visible(wanted, true);
+            self.tree.make_active(|tile, _| tile == wanted);
+            self.changed = true;
+        }
+    }
+
     /// Whether anything changed since the last call.
     pub fn take_changed(&mut self) -> bool {
         std::mem::take(&mut self.changed)

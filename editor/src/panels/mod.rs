@@ -176,6 +176,11 @@ impl Desk {
         self.layout.toggle(id);
     }
 
+    /// Shows a panel, in front of those in the same place.
+    pub fn show_panel(&mut self, id: &str) {
+        self.layout.bring_to_front(id);
+    }
+
     /// Draws one frame.
     pub fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         commands::Keymap::install(&context.settings.keys, ui.ctx());

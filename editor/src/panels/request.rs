@@ -175,6 +175,8 @@ pub enum Effect {
     FullScreen,
     /// Shows or hides a panel.
     TogglePanel(&'static str),
+    /// Shows a panel, in front of those in the same place.
+    ShowPanel(&'static str),
     /// Resets the arrangement of the panels to the default one.
     ResetLayout,
     /// Tries to start the graphics device again.

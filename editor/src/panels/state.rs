@@ -155,8 +155,8 @@ impl State {
     }
 
     /// Compares the take that is shown with a take of a file that was read.
-    pub fn compared_read(&mut self, file: Arc<LoadedModel>) {
-        compare::file_read(&mut self.workspace, file);
+    pub fn compared_read(&mut self, file: Arc<LoadedModel>) -> Option<Effect> {
+        compare::file_read(&mut self.workspace, file)
     }
 
     /// Shows what an export would lose, or reports that it was written and closes its dialog.

@@ -49,6 +49,7 @@ pub(in crate::panels) fn let_through(
         | Effect::Catch(..)
         | Effect::FullScreen
         | Effect::TogglePanel(_)
+        | Effect::ShowPanel(_)
         | Effect::ResetLayout
         | Effect::NewScene(_)
         | Effect::NewProject(_)

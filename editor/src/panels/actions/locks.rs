@@ -25,6 +25,7 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         | Effect::Catch(..)
         | Effect::FullScreen
         | Effect::TogglePanel(_)
+        | Effect::ShowPanel(_)
         | Effect::ResetLayout
         | Effect::RetryDevice
         | Effect::NewScene(_)

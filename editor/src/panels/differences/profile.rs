@@ -84,9 +84,16 @@ impl ShownProfile {
     /// Returns the largest distance and angle as text.
     pub(super) fn summary(&self, context: &PanelContext<'_>) -> Option<String> {
         let far = self.bone(0)?.distance;
-        let angle = self.profile.angles.iter().copied().fold(0.0, f32::max).to_degrees();
-        let frame = (f64::from(far.time) * f64::from(context.frame_rate)).round();
-        Some(format!("up to {:.2} mm at frame {frame}, {angle:.2}°", far.value * context.unit.millimeters()))
+        let angles = self.profile.bones.iter().map(|bone| bone.angle);
+        let angle = angles.max_by(|a, b| a.value.total_cmp(&b.value))?;
+        let frame = |time: f32| (f64::from(time) * f64::from(context.frame_rate)).round();
+        let angle = format!("{:.2}° at frame {}", angle.value.to_degrees(), frame(angle.time));
+        // Where bones without children turn, nothing moves.
+        if far.value <= EQUAL.0 {
+            return Some(format!("up to {angle}"));
+        }
+        let millimeters = far.value * context.unit.millimeters();
+        Some(format!("up to {millimeters:.2} mm at frame {}, {angle}", frame(far.time)))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::*;
 use crate::panels::actions::bones;
 use crate::panels::actions::takes;
-use crate::panels::compared::CompareWith;
+use crate::panels::actions::compare;
 use crate::panels::prompts::Overlay;
 
 commands! {
@@ -18,7 +18,7 @@ commands! {
     RetimeTake => When::Take, "Change start and length…", [], "Moves and stretches all keys of the take in time", |w| { takes::ask_times(w); None };
     ReverseTake => When::Take, "Reverse take", [], "Reverses the take in time", takes::reverse;
     CompareFile => When::Take, "Compare with another file…", [], "Lists in the panel Differences how far bones differ from those of the same names in a take of another file, and shows that pose as a second skeleton (diff)", |_| Some(Effect::CompareDialog);
-    CompareOpened => When::Take, "Compare with take as opened", [], "Lists in the panel Differences how far bones differ from the take as it was opened, and shows that pose as a second skeleton (diff)", |w| { w.compared = if w.compared == CompareWith::Opened { CompareWith::Nothing } else { CompareWith::Opened }; None };
+    CompareOpened => When::Take, "Compare with take as opened", [], "Lists in the panel Differences how far bones differ from the take as it was opened, and shows that pose as a second skeleton (diff)", compare::toggle_opened;
     MirrorTake => When::Take, "Mirror take", [], "Mirrors the take, or the play range of it: each side of the body gets the motion of the other (flip, swap sides)", |w| takes::mirror(w, false);
     MirrorBonesInTake => When::BoneInTake, "Mirror motion of bones", [], "Gives the motion of the selected bones in the take, or in the play range, to those of the other side", |w| takes::mirror(w, true);
     MirrorDialog => When::Take, "Mirror…", [], "Mirrors the take, selected bones or the play range, both sides or one to the other, with the pairs of bones to correct", |w| { w.prompts.show(Some(Overlay::MirrorPairs)); None };
