@@ -160,7 +160,10 @@ fn a_take_of_another_file_is_compared_bone_by_bone_of_the_same_names() {
     let file = other(&[("Jump", 1.0, 5), (&name, 2.0, 5)]);
     let effect = animator.harness.state_mut().state.compared_read(Arc::clone(&file));
     let Some(Effect::ShowPanel(panel)) = effect else { panic!("{effect:?}") };
-    assert!(animator.harness.query_by_label_contains("Compare with: ").is_none(), "the panel is behind another");
+    assert!(
+        animator.harness.query_by_label_contains("Compare with: ").is_none(),
+        "the panel is behind another"
+    );
     animator.harness.state_mut().desk.show_panel(panel);
     animator.steps(3);
     let panels = animator.harness.state().state.read();

@@ -36,7 +36,8 @@ impl BoneChoice<'_> {
             let id = button.id.with("filter");
             let mut filter = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
             let width = self.width.max(160.0);
-            let field = ui.add(TextEdit::singleline(&mut filter).hint_text("Filter").desired_width(width));
+            let text = TextEdit::singleline(&mut filter).hint_text("Filter").vertical_align(Align::Center);
+            let field = ui.add(text.desired_width(width));
             // What is typed while the menu is open filters it.
             if button.clicked() {
                 filter.clear();

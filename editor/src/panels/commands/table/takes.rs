@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::panels::actions::bones;
-use crate::panels::actions::takes;
 use crate::panels::actions::compare;
+use crate::panels::actions::takes;
 use crate::panels::prompts::Overlay;
 
 commands! {
