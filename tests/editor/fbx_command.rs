@@ -116,13 +116,24 @@ fn textures_are_written_beside_an_fbx_file_where_the_user_wants_them_and_listed_
 }
 
 #[test]
-fn edits_of_a_format_that_can_only_be_read_name_another_way() {
+fn an_edited_fbx_file_is_written_anew_and_an_unedited_one_keeps_its_bytes() {
     let folder = Folder::new("fbx-edit");
     let cube = data("fbx/maya_blend_shape_cube_7700_binary.fbx");
-    let output = folder.join("cube.glb");
-    let refused = run(["edit", text(&cube), "-o", text(&output)]).expect(2);
-    assert!(refused.stderr.contains("Autodesk FBX can only be read"), "{}", refused.stderr);
-    assert!(!output.exists());
+    let (same, other) = (folder.join("same.fbx"), folder.join("other.fbx"));
+    run(["edit", text(&cube), "-o", text(&same)]).expect(0);
+    assert!(std::fs::read(&same).unwrap() == std::fs::read(&cube).unwrap());
+    let edits = folder.join("edits.jsonl");
+    std::fs::write(&edits, r#"{"edit":"rename_take","take":0,"name":"Grow"}"#).unwrap();
+    let plan = run(["edit", text(&cube), "--edits", text(&edits), "--dry-run"]).expect(0);
+    assert!(plan.text().contains("the whole file is written"), "{}", plan.text());
+    run(["edit", text(&cube), "--edits", text(&edits), "-o", text(&other)]).expect(0);
+    let takes = |file: &Path| run(["info", text(file), "--json"]).expect(0).json()["takes"].clone();
+    let (before, after) = (takes(&cube), takes(&other));
+    assert_eq!(after[0]["name"], "Grow", "{after}");
+    assert_eq!((&after[0]["start"], &after[0]["end"]), (&before[0]["start"], &before[0]["end"]), "{before}");
+    let refused = run(["edit", text(&cube), "-o", text(&folder.join("cube.glb"))]).expect(2);
+    assert!(refused.stderr.contains("fbx"), "{}", refused.stderr);
+    assert!(!folder.join("cube.glb").exists());
 }
 
 #[test]

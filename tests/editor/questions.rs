@@ -4,7 +4,7 @@ use crate::panels::{Bench, harness_of};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::dialogs::{
     ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
-    UnfitQuestion, UnsavedQuestion,
+    RewriteQuestion, UnfitQuestion, UnsavedQuestion,
 };
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{Decision, DocumentMessage, HistoryView, Offer, SaveOrder, SaveTo, Source, Then};
@@ -92,6 +92,7 @@ fn questions() -> Vec<(&'static str, Question)> {
             "exists",
             ExistsQuestion { path: "/home/mara/models/Fox 2.glb".into(), order: SaveOrder::own(None) }.into(),
         ),
+        ("rewrite", RewriteQuestion { order: SaveOrder::own(None) }.into()),
         ("plan", plan(lines(6), own())),
         ("plan_long", plan(lines(100_000), None)),
         ("plan_nothing", plan(Arc::from(["nothing changes".to_owned()]), own())),
@@ -194,6 +195,7 @@ fn enter_chooses_the_default_button() {
                 // The fixture was opened by a relative path, and the field has a whole one.
                 to: SaveTo::Copy(std::path::absolute("Fox copy.glb").unwrap()),
                 anyway: false,
+                rewrite: false,
                 then: None,
             }))),
             _ => continue,

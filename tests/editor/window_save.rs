@@ -186,6 +186,40 @@ fn a_file_changed_by_another_program_is_noticed_and_not_overwritten() {
 }
 
 #[test]
+fn an_fbx_file_is_written_anew_only_after_a_question_and_then_contains_the_edits() {
+    let _one = alone();
+    let mut bench = Bench::new("window-fbx");
+    let before = fs::read(data("fbx/maya_blend_shape_cube_7700_binary.fbx")).unwrap();
+    bench.file = bench.folder.join("Cube.fbx");
+    fs::write(&bench.file, &before).unwrap();
+    fs::write(&bench.edits, r#"{"edit":"rename_take","take":0,"name":"Stroll"}"#).unwrap();
+    let mut screen = Screen::new("fbx", 1280, 800);
+    let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str()]);
+    editor.window = screen.window("• Cube.fbx", SOON);
+    control(&mut screen, key::S);
+    editor.wait_for_log("asked whether the whole file is to be written anew", 1, SOON);
+    screen.press(key::ESCAPE);
+    control(&mut screen, key::S);
+    editor.wait_for_log("asked whether the whole file is to be written anew", 2, SOON);
+    assert!(fs::read(&bench.file).unwrap() == before, "nothing is written before the answer");
+    screen.press_with(key::SHIFT, key::TAB);
+    screen.press(key::ENTER);
+    editor.wait_for_log("Saved Cube.fbx", 1, SOON);
+    screen.window("Cube.fbx", SOON);
+    let info = run(["info", bench.file.to_str().unwrap(), "--json"]).expect(0).json();
+    assert_eq!(info["takes"][0]["name"], "Stroll", "{info}");
+    // The decision holds as long as the file is open.
+    control(&mut screen, key::Z);
+    screen.window("• Cube.fbx", SOON);
+    control(&mut screen, key::S);
+    editor.wait_for_log("Saved Cube.fbx", 2, SOON);
+    let again = run(["info", bench.file.to_str().unwrap(), "--json"]).expect(0).json();
+    assert_ne!(again["takes"][0]["name"], "Stroll", "{again}");
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
+
+#[test]
 fn a_full_or_read_only_disk_is_reported_and_nothing_is_lost() {
     let _one = alone();
     if !may_mount("a_full_or_read_only_disk_is_reported_and_nothing_is_lost") {

@@ -82,6 +82,9 @@ pub enum WriteSupport {
     None,
     /// The whole file is written from the model. Content of an opened file that the model does not represent is lost.
     Whole(WriteModel),
+    /// As [`Self::Whole`], of a format whose files usually contain more than a model, so that users are asked before it is lost. A save
+    /// without edits keeps the bytes of the opened file.
+    Rewritten(WriteModel),
     /// Edits replace only the bytes that they concern in the file that was opened.
     Surgical(OpenSurgical),
 }
@@ -123,6 +126,11 @@ impl Format {
     /// Returns whether saving replaces only the bytes that an edit concerns.
     pub fn is_surgical(&self) -> bool {
         matches!(self.write, WriteSupport::Surgical(_))
+    }
+
+    /// Returns whether saving loses what files of this format usually contain besides a model, see [`WriteSupport::Rewritten`].
+    pub fn is_rewritten(&self) -> bool {
+        matches!(self.write, WriteSupport::Rewritten(_))
     }
 
     /// Reads `bytes` as a file of this format, with the same limits and promises as [`super::read`].
@@ -186,6 +194,7 @@ impl fmt::Debug for WriteSupport {
         f.write_str(match self {
             Self::None => "None",
             Self::Whole(_) => "Whole",
+            Self::Rewritten(_) => "Rewritten",
             Self::Surgical(_) => "Surgical",
         })
     }

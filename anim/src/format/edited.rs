@@ -100,6 +100,8 @@ pub struct EditableFile {
 enum SaveSource {
     /// Nothing but the model.
     Model(WriteModel),
+    /// The model, if it was edited, or else the bytes of the opened file.
+    Rewritten(WriteModel, Arc<[u8]>),
     /// The bytes of the opened file.
     File(Box<dyn SurgicalFile>),
 }
@@ -115,6 +117,7 @@ impl EditableFile {
         let source = match format.write {
             WriteSupport::None => return Err(ImportError::ReadOnly { title: format.title }),
             WriteSupport::Whole(write) => SaveSource::Model(write),
+            WriteSupport::Rewritten(write) => SaveSource::Rewritten(write, bytes),
             WriteSupport::Surgical(open) => {
                 check_file_size(bytes.len())?;
                 options.budget.input(bytes.len());
@@ -150,7 +153,14 @@ impl EditableFile {
     ) -> Result<SavePlan, ExportError> {
         match &self.source {
             SaveSource::File(file) => file.plan(opened, skeleton, takes),
-            SaveSource::Model(write) => {
+            SaveSource::Rewritten(_, bytes) if is_unedited(opened, skeleton, takes) => {
+                let bytes = bytes.to_vec();
+                Ok(SavePlan {
+                    files: vec![OutputFile { name: self.name.clone(), bytes }],
+                    ..SavePlan::default()
+                })
+            }
+            SaveSource::Model(write) | SaveSource::Rewritten(write, _) => {
                 let shift = BoneShift::between(&opened.animation.skeleton, skeleton);
                 let model = shift.and_then(|shift| shift.model(opened, skeleton));
                 let model = model.ok_or_else(|| ExportError::new(DifferentBones))?;
@@ -165,7 +175,7 @@ impl EditableFile {
     pub fn compact(&self, opened: &ModelData) -> Result<SavePlan, ExportError> {
         match &self.source {
             SaveSource::File(file) => file.compact(),
-            SaveSource::Model(write) => self.whole(*write, opened),
+            SaveSource::Model(write) | SaveSource::Rewritten(write, _) => self.whole(*write, opened),
         }
     }
 
@@ -173,13 +183,24 @@ impl EditableFile {
     pub fn neighbors(&self) -> Vec<String> {
         match &self.source {
             SaveSource::File(file) => file.neighbors(),
-            SaveSource::Model(_) => Vec::new(),
+            SaveSource::Model(_) | SaveSource::Rewritten(..) => Vec::new(),
         }
     }
 
     fn whole(&self, write: WriteModel, model: &ModelData) -> Result<SavePlan, ExportError> {
         Ok(write(model)?.named(&self.name))
     }
+}
+
+/// Returns whether the takes are those that were opened, in their order.
+fn is_unedited(opened: &ModelData, skeleton: &Arc<Skeleton>, takes: &[EditedTake]) -> bool {
+    let own = &opened.animation;
+    let same = |(index, (edited, take)): (usize, (&EditedTake, &Arc<Take>))| {
+        edited.origin == Some(index) && (Arc::ptr_eq(&edited.take, take) || edited.take == *take)
+    };
+    Arc::ptr_eq(skeleton, &own.skeleton)
+        && takes.len() == own.takes.len()
+        && takes.iter().zip(&own.takes).enumerate().all(same)
 }
 
 impl fmt::Debug for EditableFile {

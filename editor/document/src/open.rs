@@ -59,6 +59,8 @@ pub(super) struct Open {
     pub(super) journal_writer: JournalWriter,
     /// Whether the user discarded the unsaved work.
     pub(super) unwanted: bool,
+    /// Whether the user decided to write the whole file anew.
+    pub(super) is_rewritten: bool,
 }
 
 impl Open {
@@ -82,6 +84,7 @@ impl Open {
             about: EditsOrigin::new(source.as_ref(), conventions),
             journal_writer: JournalWriter::new(autosave),
             unwanted: false,
+            is_rewritten: false,
         };
         open.look();
         open

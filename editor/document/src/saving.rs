@@ -38,6 +38,8 @@ pub struct SaveOrder {
     pub to: SaveTo,
     /// Overwrites another file, or changes of another program: the user has decided.
     pub anyway: bool,
+    /// Writes the whole file anew where the format needs it, see [`Format::is_rewritten`](dragonfly_anim::format::Format::is_rewritten): the user has decided.
+    pub rewrite: bool,
     /// The action that follows.
     pub then: Option<Then>,
 }
@@ -45,7 +47,7 @@ pub struct SaveOrder {
 impl SaveOrder {
     /// Saves to the file of the document.
     pub fn own(then: Option<Then>) -> Self {
-        Self { to: SaveTo::Own, anyway: false, then }
+        Self { to: SaveTo::Own, anyway: false, rewrite: false, then }
     }
 }
 
@@ -75,6 +77,8 @@ pub enum NotSaved {
     Changed,
     /// A file of this name exists already.
     Exists(PathBuf),
+    /// The whole file would be written anew, and lose what the program does not read: the user decides.
+    Rewritten,
     /// Any other failure, with path and reason.
     Failed(String),
 }
@@ -119,6 +123,10 @@ impl Open {
                 with_ending(path, &editable.ending()).map_err(NotSaved::Failed)?
             }
         };
+        self.is_rewritten |= order.rewrite;
+        if editable.format().is_some_and(|format| format.is_rewritten()) && !self.is_rewritten {
+            return Err(NotSaved::Rewritten);
+        }
         let own = self.file.path.is_some() && editable.is_own(&output);
         if own && copy {
             return Err(NotSaved::Failed("A copy of a file cannot be the file itself".to_owned()));

@@ -3,7 +3,9 @@
 use crate::parser::FbxParser;
 use crate::write::{FbxOptions, export_with};
 use dragonfly_anim::data::ModelData;
-use dragonfly_anim::format::{Format, ImportContext, ImportError, WriteSupport};
+use dragonfly_anim::format::{
+    ExportError, Format, ImportContext, ImportError, SavePlan, WholeFile, WriteSupport,
+};
 
 /// FBX 5.0 to 7.7, binary and text; written as binary 7.4.
 ///
@@ -15,9 +17,15 @@ pub const FBX: Format = Format {
     extensions: &["fbx"],
     sniff: looks_like_fbx,
     read,
-    write: WriteSupport::None,
+    write: WriteSupport::Rewritten(rewrite),
     export: Some(|model, name| export_with(model, name, &FbxOptions::default())),
 };
+
+/// Writes a whole file with its images.
+fn rewrite(model: &ModelData) -> Result<WholeFile, ExportError> {
+    let SavePlan { mut files, lost, .. } = export_with(model, "model.fbx", &FbxOptions::default())?;
+    Ok(WholeFile { bytes: files.pop().map(|main| main.bytes).unwrap_or_default(), lost })
+}
 
 /// Start of a binary file.
 const BINARY: &[u8] = b"Kaydara FBX Binary  \0";

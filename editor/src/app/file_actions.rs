@@ -140,7 +140,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             let to = if copy { Copy(path) } else { As(path) };
             // `anyway`: the dialog has already asked the user whether to replace an existing
             // file.
-            let order = SaveOrder { to, anyway: true, then };
+            let order = SaveOrder { to, anyway: true, rewrite: false, then };
             interface.effects.push(Effect::File(FileAction::Send(DocumentMessage::Save(order))));
         }
         (Purpose::Find(offer), Some(path)) => {

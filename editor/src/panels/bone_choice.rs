@@ -5,7 +5,7 @@ use super::style::ROW;
 use super::theme::Theme;
 use super::widgets;
 use dragonfly_anim::data::BoneIndex;
-use egui::{Align, Button, Key, Layout, Popup, Response, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Align, Align2, Button, Key, Layout, Popup, Response, RichText, ScrollArea, TextEdit, Ui};
 
 /// The names among which a bone is chosen.
 pub(super) struct BoneChoice<'a> {
@@ -36,7 +36,7 @@ impl BoneChoice<'_> {
             let id = button.id.with("filter");
             let mut filter = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
             let width = self.width.max(160.0);
-            let text = TextEdit::singleline(&mut filter).hint_text("Filter").vertical_align(Align::Center);
+            let text = TextEdit::singleline(&mut filter).hint_text("Filter").align(Align2::LEFT_CENTER);
             let field = ui.add(text.desired_width(width));
             // What is typed while the menu is open filters it.
             if button.clicked() {

@@ -8,7 +8,7 @@ use super::theme::Theme;
 use super::widgets;
 use egui::accesskit::Role;
 use egui::{
-    Align, Button, Color32, CornerRadius, Frame, Key, Margin, Response, Sense, TextEdit, TextStyle, Ui,
+    Align2, Button, Color32, CornerRadius, Frame, Key, Margin, Response, Sense, TextEdit, TextStyle, Ui,
     WidgetInfo, pos2, vec2,
 };
 
@@ -77,7 +77,7 @@ fn menu(ui: &mut Ui, context: &PanelContext<'_>, at: usize, set: &SelectionSet, 
     let id = ui.scope_id().with(("name of set", at));
     let mut name = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| set.name.clone());
     let field = ui
-        .add(TextEdit::singleline(&mut name).vertical_align(Align::Center).desired_width(150.0))
+        .add(TextEdit::singleline(&mut name).align(Align2::LEFT_CENTER).desired_width(150.0))
         .accessible_name("Name of the set");
     if field.changed() {
         ui.data_mut(|data| data.insert_temp(id, name.clone()));

@@ -6,7 +6,7 @@ use crate::questions::offer;
 use crate::workbench::Workbench;
 use dragonfly::panels::dialogs::{
     ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
-    UnfitQuestion, UnsavedQuestion,
+    RewriteQuestion, UnfitQuestion, UnsavedQuestion,
 };
 use dragonfly_document::edit::{Edit, ReverseTake, TakeRef};
 use dragonfly_document::{Change, FileView, Offer, SaveOrder, Source, Then};
@@ -63,6 +63,8 @@ const TABLE: &[QuestionRow] = &[
         UnfitQuestion { lines: reasons.map(str::to_owned).into() }.into()
     }),
     ("unfit", "crowded", || UnfitQuestion { lines: lines(100_000) }.into()),
+    ("rewrite", "typical", || RewriteQuestion { order: SaveOrder::own(None) }.into()),
+    ("rewrite", "crowded", || RewriteQuestion { order: SaveOrder::own(Some(Then::Quit)) }.into()),
     ("place", "typical", || PlaceQuestion { copy: false, then: None }.into()),
     ("place", "crowded", || PlaceQuestion { copy: true, then: Some(Then::Quit) }.into()),
 ];

@@ -1,7 +1,7 @@
 //! Questions about files and their answers.
 
 use super::playback;
-use crate::panels::dialogs::{ChangedQuestion, ExistsQuestion, UnsavedQuestion};
+use crate::panels::dialogs::{ChangedQuestion, ExistsQuestion, RewriteQuestion, UnsavedQuestion};
 use crate::panels::prompts::Question;
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::status::MessageSeverity;
@@ -124,6 +124,7 @@ pub(in crate::panels) fn not_saved(
             ask(workspace, ChangedQuestion { file: FileState::Changed, order: Some(order) }.into())
         }
         NotSaved::Exists(path) => ask(workspace, ExistsQuestion { path, order }.into()),
+        NotSaved::Rewritten => ask(workspace, RewriteQuestion { order }.into()),
         NotSaved::Failed(reason) => {
             workspace.say(MessageSeverity::Error, format!("Not saved: {reason}"));
             // A user who wanted to leave is asked again what to do with the changes.

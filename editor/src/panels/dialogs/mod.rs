@@ -13,6 +13,7 @@ mod line_list;
 mod place;
 mod plan;
 mod recover;
+mod rewrite;
 mod show;
 mod unfit;
 mod unsaved;
@@ -55,6 +56,7 @@ questions! {
     Unsaved => unsaved::UnsavedQuestion,
     Changed => changed::ChangedQuestion,
     Exists => exists::ExistsQuestion,
+    Rewrite => rewrite::RewriteQuestion,
     Plan => plan::PlanQuestion,
     Recover => recover::RecoverQuestion,
     Find => find::FindQuestion,
