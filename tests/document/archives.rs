@@ -91,14 +91,19 @@ fn a_file_that_unpacks_to_more_than_it_says_is_refused_without_the_memory_for_it
         }
     }
     assert_eq!(read_archive(&lies), Err(ArchiveError::Checksum("zeros".to_owned())));
-    // Sizes that are too large together are refused before anything is unpacked.
+}
+
+#[test]
+fn sizes_that_are_too_large_together_are_refused_before_anything_is_unpacked() {
+    let bytes =
+        write_archive(&[file("a", vec![0; 123_457]), file("b", vec![0; 123_457])]).expect("an archive");
     let mut large = bytes;
     for at in 0..large.len() - 4 {
-        if large[at..at + 4] == size {
+        if large[at..at + 4] == 123_457_u32.to_le_bytes() {
             large[at..at + 4].copy_from_slice(&u32::MAX.to_le_bytes());
         }
     }
-    assert!(read_archive(&large).is_err());
+    assert_eq!(read_archive(&large), Err(ArchiveError::TooLarge));
 }
 
 #[test]

@@ -75,12 +75,7 @@ fn a_buffer_file_that_another_program_changed_is_noticed_before_a_save() {
     assert!(fs::read(&model).expect("a file") == before);
     assert_eq!(buffers(folder.path()), [] as [PathBuf; 0]);
     // The user may decide.
-    document.send(DocumentMessage::Save(SaveOrder {
-        to: SaveTo::Own,
-        anyway: true,
-        rewrite: false,
-        then: None,
-    }));
+    document.send(DocumentMessage::Save(SaveOrder { anyway: true, ..SaveOrder::own(None) }));
     document.wait_for_reply(|reply| matches!(reply, DocumentReply::Saved(_)).then_some(()));
 }
 

@@ -165,7 +165,7 @@ fn contacts_are_found_in_the_unit_of_the_model_and_those_of_other_bones_stay() {
 
 /// The fox drifts by 4 cm in 3 s: still in contact, unless its centimeters are taken for meters.
 #[test]
-fn without_a_unit_contacts_are_found_in_the_one_that_the_size_of_the_model_says() {
+fn contacts_are_found_in_the_unit_that_the_size_of_the_model_says_where_it_is_to_be_guessed() {
     let mut model = fox_takes();
     for (time, x) in [(0, 0), (3, 4)] {
         apply(
@@ -181,11 +181,13 @@ fn without_a_unit_contacts_are_found_in_the_one_that_the_size_of_the_model_says(
         model.apply(&edit(&line)).map(|_| spans(&model, 0)).unwrap_or_default()
     };
     let covered = |unit: &str| found(unit).iter().map(|span| span.2 - span.1).sum::<f32>();
-    assert_eq!(found(""), found(r#","meters_per_unit":0.01"#));
-    let (by_size, in_meters) = (covered(""), covered(r#","meters_per_unit":1"#));
+    let guess = r#","meters_per_unit":"guess""#;
+    assert_eq!(found(guess), found(r#","meters_per_unit":0.01"#));
+    assert_eq!(found(""), found(r#","meters_per_unit":1"#), "as in journals of earlier versions");
+    let (by_size, in_meters) = (covered(guess), covered(r#","meters_per_unit":1"#));
     assert!(by_size > 2.5 && in_meters < 0.6, "{by_size} {in_meters}");
     // Locking finds the same contacts where the take has none stored.
-    apply(&mut model, r#"{"edit":"lock_contacts","take":"Survey","ease":2}"#);
+    apply(&mut model, r#"{"edit":"lock_contacts","take":"Survey","ease":2,"meters_per_unit":"guess"}"#);
     let bone = model.skeleton().find(LEFT).expect("a bone");
     let contact = Contact { bone, from: 1.0, to: 2.5 };
     let slide = slide(&model, &model.slots()[0].result, &contact);

@@ -36,7 +36,7 @@ pub(super) fn project(folder: &Folder) -> PathBuf {
 }
 
 /// Returns an edit that replaces the first `old` of a text.
-fn replaced_in(name: &str, text: &str, old: &str, new: &str) -> Edit {
+pub(super) fn replaced_in(name: &str, text: &str, old: &str, new: &str) -> Edit {
     let Edit::EditScript(edit) = replaced(text, old, new) else { panic!("another edit") };
     EditScript { text: Some(TextRef::Name(name.to_owned())), ..edit }.into()
 }
@@ -47,7 +47,7 @@ pub(super) fn is_read(view: &View) -> bool {
     !models.is_empty() && models.values().all(|model| matches!(model, SceneModel::Loaded(_)))
 }
 
-fn text_of(view: &View, name: &str) -> String {
+pub(super) fn text_of(view: &View, name: &str) -> String {
     scene_of(view).texts.called(name).map(|file| file.text.to_string()).expect(name)
 }
 
@@ -177,7 +177,7 @@ fn a_new_text_is_written_with_the_next_save_and_never_over_a_file_that_is_there(
 }
 
 /// Opens the project after a kill, with a copy of the journals, and restores the offered work.
-fn restored(path: &Path, autosave: &Path) -> TestDocument {
+pub(super) fn restored(path: &Path, autosave: &Path) -> TestDocument {
     let mut document = TestDocument::new(autosave);
     document.open(path);
     let offer = document.wait_for_offers().remove(0);

@@ -98,7 +98,7 @@ fn opened(name: &str, at: FaultPoint) -> (Folder, PathBuf, Arc<HeldSave>, TestDo
 }
 
 fn order(to: SaveTo) -> DocumentMessage {
-    DocumentMessage::Save(SaveOrder { to, anyway: false, rewrite: false, then: None })
+    DocumentMessage::Save(SaveOrder { to, ..SaveOrder::own(None) })
 }
 
 #[track_caller]

@@ -9,7 +9,7 @@ use dragonfly_kit::folder::Folder;
 use std::fs;
 
 /// Returns the names of the takes of a model in the scene.
-fn takes(view: &View, name: &str) -> Vec<String> {
+pub(super) fn takes(view: &View, name: &str) -> Vec<String> {
     match view.scene.as_ref().and_then(|scene| scene.models.get(name)) {
         Some(SceneModel::Loaded(loaded)) => {
             loaded.model.animation.takes.iter().map(|take| take.name.clone()).collect()
@@ -19,7 +19,7 @@ fn takes(view: &View, name: &str) -> Vec<String> {
 }
 
 /// Shows the fox of the scene, to edit it.
-fn enter(document: &mut TestDocument) -> View {
+pub(super) fn enter(document: &mut TestDocument) -> View {
     document.send(DocumentMessage::EditModel("fox".to_owned()));
     document.wait_for_view(|view| view.scene.is_none() && view.loaded.title == "Fox.glb")
 }
@@ -167,14 +167,40 @@ fn a_model_whose_file_changed_since_its_edits_and_edits_that_do_not_fit_are_repo
     let edits = "{\"edit\":\"rename_take\",\"take\":0,\"name\":\"Look around\"}\n{\"edit\":\"reverse_take\",\"take\":\"Dance\"}\n";
     fs::write(folder.join("foxes.edits/fox.jsonl"), edits).expect("a file");
     let model = "<model id=\"fox\" src=\"models/Fox.glb\" hash=\"0123456789abcdef\"/>\n    <edits of=\"fox\" src=\"foxes.edits/fox.jsonl\"/>";
-    fs::write(&path, PROJECT.replace("<model id=\"fox\" src=\"models/Fox.glb\"/>", model)).expect("a file");
+    let text = PROJECT.replace("<model id=\"fox\" src=\"models/Fox.glb\"/>", model);
+    fs::write(&path, &text).expect("a file");
     let mut document = TestDocument::new(&folder.join("autosave"));
     document.open(&path);
+    let notes = |view: &View| -> Vec<String> {
+        scene_of(view).project_notes.iter().map(|note| note.in_file("foxes.meproj")).collect()
+    };
     let view = document.wait_for_view(|view| is_read(view) && !scene_of(view).project_notes.is_empty());
-    let notes: Vec<String> =
-        scene_of(&view).project_notes.iter().map(|note| note.in_file("foxes.meproj")).collect();
-    assert_eq!(notes.len(), 2, "{notes:?}");
-    assert!(notes[0].starts_with("foxes.meproj:4:48: the file of \"fox\" changed"), "{notes:?}");
-    assert!(notes[1].contains("line 2: there is no take \"Dance\""), "{notes:?}");
-    assert_eq!(takes(&view, "fox")[0], "Look around", "what fits is applied");
+    assert_eq!(notes(&view).len(), 1, "{:?}", notes(&view));
+    assert!(notes(&view)[0].starts_with("foxes.meproj:4:48: models/Fox.glb changed"), "{:?}", notes(&view));
+    assert_eq!(takes(&view, "fox")[0], "Survey", "the file may have the edits already");
+    // With the hash of the file, they are applied as far as they fit.
+    let hash = dragonfly_store::hash(&fs::read(folder.join("models/Fox.glb")).expect("a file"));
+    document.edit(replaced(&text, "0123456789abcdef", &format!("{hash:016x}")));
+    let view =
+        document.wait_for_view(|view| takes(view, "fox").first().is_some_and(|name| name == "Look around"));
+    assert_eq!(notes(&view).len(), 1, "{:?}", notes(&view));
+    assert!(notes(&view)[0].contains("line 2: there is no take \"Dance\""), "{:?}", notes(&view));
+    // A script that names the file itself means the same model.
+    document.edit(super::projects::replaced_in(
+        "main.xml",
+        MAIN,
+        "model=\"fox\"",
+        "model=\"models/Fox.glb\"",
+    ));
+    let view = document.wait_for_view(|view| {
+        takes(view, "models/Fox.glb").first().is_some_and(|name| name == "Look around")
+    });
+    assert_eq!(notes(&view).len(), 1, "{:?}", notes(&view));
+    // A model that is not there any more has no such note.
+    fs::remove_file(folder.join("models/Fox.glb")).expect("a file");
+    document.send(DocumentMessage::LookAtFile);
+    let view = document.wait_for_view(|view| {
+        matches!(scene_of(view).models.get("models/Fox.glb"), Some(SceneModel::Missing(_)))
+    });
+    assert!(notes(&view).is_empty(), "{:?}", notes(&view));
 }

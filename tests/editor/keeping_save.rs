@@ -17,7 +17,7 @@ use std::path::Path;
 /// Orders a save that is refused. Returns the reason.
 #[track_caller]
 fn refused(desk: &mut TestDocument, to: SaveTo) -> NotSaved {
-    desk.send(DocumentMessage::Save(SaveOrder { to, anyway: false, rewrite: false, then: None }));
+    desk.send(DocumentMessage::Save(SaveOrder { to, ..SaveOrder::own(None) }));
     desk.wait_for_reply(|reply| match reply {
         DocumentReply::NotSaved(_, reason) => Some(reason.clone()),
         DocumentReply::Saved(saved) => panic!("{saved:?}"),
@@ -28,7 +28,7 @@ fn refused(desk: &mut TestDocument, to: SaveTo) -> NotSaved {
 /// Orders a save that overwrites any existing file.
 #[track_caller]
 fn anyway(desk: &mut TestDocument, to: SaveTo) {
-    desk.send(DocumentMessage::Save(SaveOrder { to, anyway: true, rewrite: false, then: None }));
+    desk.send(DocumentMessage::Save(SaveOrder { to, anyway: true, ..SaveOrder::own(None) }));
     desk.wait_for_reply(|reply| matches!(reply, DocumentReply::Saved(_)).then_some(()));
 }
 

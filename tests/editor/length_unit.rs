@@ -68,10 +68,10 @@ fn the_dialog_shows_the_size_and_sets_the_unit_that_detection_uses() {
         let DetectContacts { meters_per_unit, .. } = edit;
         meters_per_unit
     };
-    assert_eq!(detection(&mut window), None, "as the size says");
+    assert_eq!(detection(&mut window), Some(0.01.into()), "as the size says");
     type_into(&mut window, "Meters per unit", "0.025", Key::Enter);
     assert_eq!(window.state().state.read().unit.chosen(), Some(0.025));
-    assert_eq!(detection(&mut window), Some(0.025));
+    assert_eq!(detection(&mut window), Some(0.025.into()));
     window.get_by_label("Inches").click();
     window.run_steps(3);
     assert_eq!(window.state().state.read().unit.chosen(), Some(0.0254));

@@ -183,7 +183,7 @@ fn the_built_in_model_is_shown_as_a_file_after_it_was_saved() {
     let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &dragonfly_document::Cancel::default());
     let mut view = View::opened(1, std::sync::Arc::new(loaded.unwrap()));
     let path = Some("mine.glb".into());
-    view.file = std::sync::Arc::new(FileView { title: "mine.glb".to_owned(), path });
+    view.file = std::sync::Arc::new(FileView { title: "mine.glb".to_owned(), path, ..FileView::default() });
     let bench = Bench::new(Some(view));
     let mut harness = harness(bench);
     harness.run_steps(4);
@@ -509,7 +509,8 @@ fn an_edit_of_the_shown_take_keeps_the_time_selection_and_camera() {
 #[test]
 fn a_model_is_shown_under_the_name_of_the_file_it_was_last_saved_to() {
     let mut view = fixture::full();
-    let file = FileView { title: "renamed.glb".to_owned(), path: Some("renamed.glb".into()) };
+    let file =
+        FileView { title: "renamed.glb".to_owned(), path: Some("renamed.glb".into()), ..FileView::default() };
     view.file = std::sync::Arc::new(file);
     let mut harness = harness_of(Bench::new(Some(view)), egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
     harness.run_steps(4);

@@ -3,11 +3,14 @@
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::dialogs::{
-    ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
-    RewriteQuestion, UnfitQuestion, UnsavedQuestion,
+    ChangedQuestion, ExistsQuestion, FindQuestion, OutdatedQuestion, PlaceQuestion, PlanQuestion, Question,
+    RecoverQuestion, RewriteQuestion, UnfitQuestion, UnsavedQuestion,
 };
 use dragonfly::panels::{Effect, Request};
-use dragonfly_document::{Decision, DocumentMessage, HistoryView, Offer, SaveOrder, SaveTo, Source, Then};
+use dragonfly_document::{
+    Decision, DocumentMessage, HistoryView, Offer, OutdatedEdits, OutdatedEditsChoice, SaveOrder, SaveTo,
+    Source, Then,
+};
 use dragonfly_kit::document::fixture;
 use dragonfly_store::{DocumentFileState, FileState, JournalOwner, OwnerStatus, Readability, Recoverable};
 use egui_kittest::kittest::Queryable;
@@ -113,7 +116,12 @@ fn questions() -> Vec<(&'static str, Question)> {
         ("where", place(false)),
         ("where_copy", place(true)),
         ("unfit", UnfitQuestion { lines: lines(2) }.into()),
+        ("outdated", OutdatedQuestion { edits: outdated() }.into()),
     ]
+}
+
+fn outdated() -> OutdatedEdits {
+    OutdatedEdits { model: "fox".to_owned(), title: "Fox.glb".to_owned(), hash: 7 }
 }
 
 fn bench(question: Question) -> Bench {
@@ -190,13 +198,11 @@ fn enter_chooses_the_default_button() {
                 ..SaveOrder::own(None)
             }))),
             "plan" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(None)))),
-            "exists" | "plan_long" | "unfit" => None,
+            "exists" | "plan_long" | "unfit" | "outdated" => None,
             "where_copy" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder {
                 // The fixture was opened by a relative path, and the field has a whole one.
                 to: SaveTo::Copy(std::path::absolute("Fox copy.glb").unwrap()),
-                anyway: false,
-                rewrite: false,
-                then: None,
+                ..SaveOrder::own(None)
             }))),
             _ => continue,
         };
@@ -263,6 +269,26 @@ fn a_file_that_changed_on_disk_can_be_loaded_with_the_unsaved_changes() {
         harness.run_steps(4);
         let reload = Effect::File(FileAction::Send(DocumentMessage::Reload));
         assert_eq!(harness.state().effects, [reload]);
+        assert_eq!(harness.state().state.read().question(), None);
+    }
+}
+
+#[test]
+fn outdated_edits_of_a_model_are_applied_or_removed_as_the_user_chooses() {
+    for (button, choice) in [
+        ("Apply", Some(OutdatedEditsChoice::Apply)),
+        ("Remove", Some(OutdatedEditsChoice::Remove)),
+        ("Cancel", None),
+    ] {
+        let bench = bench(OutdatedQuestion { edits: outdated() }.into());
+        let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        harness.get_by_label(button).click();
+        harness.run_steps(4);
+        let message = choice.map(|choice| DocumentMessage::DecideOutdated(outdated(), choice));
+        let wanted: Vec<Effect> =
+            message.into_iter().map(|message| Effect::File(FileAction::Send(message))).collect();
+        assert_eq!(harness.state().effects, wanted, "{button}");
         assert_eq!(harness.state().state.read().question(), None);
     }
 }

@@ -111,7 +111,21 @@ fn what_is_wrong_with_a_script_is_listed_with_line_column_and_a_suggestion() {
     fs::write(&path, SCENE).expect("a file");
     run(["check", text(&path)]).expect(0);
     let other = run(["pose", text(&path.with_file_name("models/Fox.glb")), "--role", "fox", "--time", "0"]);
-    assert!(other.expect(2).stderr.contains("has to be the script of a scene"));
+    assert!(other.expect(2).stderr.contains("has to be a scene"));
+}
+
+#[test]
+fn options_that_a_scene_would_ignore_are_refused() {
+    let (folder, path) = scene("scene-options", SCENE);
+    let image = folder.join("image.png");
+    for option in [["--take", "Walk"], ["--scale", "0.01"], ["--up", "z"]] {
+        let refused = run(["render", text(&path), option[0], option[1], "-o", text(&image)]).expect(2);
+        assert!(refused.stderr.contains(option[0]), "{}", refused.stderr);
+    }
+    assert!(!image.exists());
+    let model = path.with_file_name("models/Fox.glb");
+    let refused = run(["render", text(&model), "--camera", "wide", "-o", text(&image)]).expect(2);
+    assert!(refused.stderr.contains("(.meproj)"), "{}", refused.stderr);
 }
 
 #[test]

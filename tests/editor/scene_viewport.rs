@@ -8,7 +8,7 @@ use dragonfly::panels::request::FileAction;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Change, DocumentMessage};
+use dragonfly_document::{Change, DocumentMessage, View};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::gizmo::GizmoView;
@@ -204,9 +204,8 @@ fn the_model_of_a_thing_is_opened_in_place_and_the_scene_shown_again() {
     let opened = bench.state.execute(Request::Scene(SceneRequest::EditModel("anna".into())));
     assert_eq!(sent(opened), DocumentMessage::EditModel("Fox.glb".to_owned()));
     assert_eq!(bench.state.execute(Request::Command(Id::BackToScene)), None, "the model is still being read");
-    bench.state.show(fixture::full());
-    let waiting = bench.state.read().stage.waiting().cloned().expect("a scene waits");
-    assert_eq!((&*waiting.scene, waiting.is_shown), ("scene.xml", true));
+    let model = View { waiting_scene: Some("scene.xml".into()), ..fixture::full() };
+    bench.state.show(model);
     let back = bench.state.execute(Request::Command(Id::BackToScene));
     assert_eq!(sent(back), DocumentMessage::ShowScene);
 }

@@ -129,7 +129,11 @@ fn markers_follow_save_as_and_renamed_takes() {
     animator.steps(2);
     let state = &mut animator.harness.state_mut().state;
     let mut view = state.read().view.cloned().unwrap();
-    let other = Arc::new(FileView { title: "other.glb".to_owned(), path: Some("other.glb".into()) });
+    let other = Arc::new(FileView {
+        title: "other.glb".to_owned(),
+        path: Some("other.glb".into()),
+        ..FileView::default()
+    });
     view.file = Arc::clone(&other);
     state.show(view);
     let (file, text) = state.side_files().unsaved_markers().expect("of the new file too");

@@ -143,11 +143,17 @@ def dragonfly(*arguments):
     return json.loads(done.stdout)
 
 
-def largest(first, second):
-    """Returns the largest distance of two lists of poses, each the position of every name."""
+def largest(first, second, times, names):
+    """Returns the largest distance of two lists of poses, each the position of every name; both have a pose for each time, and all names."""
+    if not names or not times or (len(first), len(second)) != (len(times), len(times)):
+        sys.exit(f"{len(first)} and {len(second)} poses of {len(names)} bones at {len(times)} times")
+    for one, other in zip(first, second, strict=True):
+        missing = [name for name in names if name not in one or name not in other]
+        if missing:
+            sys.exit(f"bones without a position: {', '.join(missing)}")
     distances = [numpy.linalg.norm(numpy.subtract(one[name], other[name]))
-                 for one, other in zip(first, second) for name in one.keys() & other.keys()]
-    return max(map(float, distances), default=0.0)
+                 for one, other in zip(first, second, strict=True) for name in names]
+    return max(map(float, distances))
 
 
 def unique(pairs):
@@ -204,17 +210,24 @@ def main():
             look.times = sorted({round(time * RATE) / RATE for time in look.times})
         of_baked = asked(blender, baked, frames) if frames else {}
         frame_poses = {look.index: poses_of(path, look, names) for look in frames}
+        frame_times = {look.index: look.times for look in frames}
     ours = {look.index: poses_of(path, look, names) for look in looks}
     points = numpy.array(list(ours[looks[0].index][0].values()))
     size = float(numpy.linalg.norm(numpy.ptp(points, axis=0)))
-    rows, failed = [], []
+    rows, failed, compared = [], [], 0
     for look in looks:
         positions = [file.positions(look.curves, time) for time in look.times]
         own = [{name: pose[node] for node, name in names.items()} for pose in positions]
         mine, theirs = ours[look.index], of_blender[look.index]
-        row = {"three.js": largest(renamed(mine, three), of_three[look.index]), "Blender": largest(mine, theirs)}
-        row["components"] = None if look.is_cubic else largest(own, theirs)
-        row["baked"] = largest(frame_poses[look.index], of_baked[look.index]) if look.is_cubic else None
+        every, renamed_names = sorted(names.values()), sorted(map(three.rename, names.values()))
+        row = {"three.js": largest(renamed(mine, three), of_three[look.index], look.times, renamed_names),
+               "Blender": largest(mine, theirs, look.times, every)}
+        row["components"] = None if look.is_cubic else largest(own, theirs, look.times, every)
+        row["baked"] = None
+        if look.is_cubic:
+            times = frame_times[look.index]
+            row["baked"] = largest(frame_poses[look.index], of_baked[look.index], times, every)
+        compared += len(every) * len(look.times)
         rows.append((look, row))
         for what, distance in row.items():
             if what != "Blender" and distance is not None and not distance <= LIMIT * size:
@@ -228,7 +241,7 @@ def main():
         table.append(f"| {' | '.join(cells)} |")
     text = "\n".join(table)
     versions = f"Blender {blender.version}, three.js {three.version}; {len(names)} bones, {size:.2f} m at the start"
-    print(f"{versions}\n{text}")
+    print(f"{versions}; {compared} positions of bones compared with each\n{text}")
     if "--record" in sys.argv:
         start = (HERE / "merged.md").read_text().split("<!-- table -->")[0]
         (HERE / "merged.md").write_text(f"{start}<!-- table -->\n{versions}.\n\n{text}\n")

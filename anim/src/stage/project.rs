@@ -38,8 +38,7 @@ pub struct StageProject {
 }
 
 /// Attributes that name an element of the project: element, attribute, and the name of the element that is meant.
-const NAMED: [(&str, &str, &str); 3] =
-    [("edits", "of", "model"), ("clips", "onto", "model"), ("movie", "script", "script")];
+const NAMED: [(&str, &str, &str); 2] = [("edits", "of", "model"), ("movie", "script", "script")];
 
 /// Elements of which a project has at most one.
 const SINGLE: [&str; 4] = ["models", "scene", "cast", "lines"];
@@ -112,7 +111,7 @@ impl StageProject {
     pub fn files(&self) -> Vec<&str> {
         let mut files = Vec::new();
         for element in self.tree.elements() {
-            for name in ["src", "model", "map", "sky"] {
+            for name in ["src", "model", "sky"] {
                 let written = element.attribute(name).map(|attribute| &*attribute.value);
                 let file = written.map(|file| if name == "model" { self.source_of(file) } else { file });
                 if let Some(file) = file.filter(|file| !files.contains(file)) {

@@ -205,7 +205,8 @@ pub fn prepare_conversion(
             missing.into_iter().map(|name| format!("the map names {name:?}, which is no bone of it")),
         );
     }
-    if let Some(rate) = order.bake {
+    // A file of OBJ has one pose, so that frames are files, and are computed one by one.
+    if let Some(rate) = order.bake.filter(|_| target != OBJ) {
         for take in &mut imported.model.animation.takes {
             *take = Arc::new(
                 baked(take, rate).map_err(|error| failed(format!("take {:?}: {error}", take.name)))?,
@@ -213,7 +214,6 @@ pub fn prepare_conversion(
         }
     }
     let plan = match order.bake {
-        // A file has one pose, so that frames are files.
         Some(rate) if target == OBJ => write_sequence(&imported.model, &name, rate),
         _ => export(&target, &imported.model, &name, order.preset.as_deref(), order.textures),
     };

@@ -233,7 +233,7 @@ impl Editable {
     /// Returns the files that the model needs and that are missing in `folder`.
     fn taken_along(&self, folder: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
-        if std::fs::canonicalize(from).ok() == std::fs::canonicalize(folder).ok() {
+        if is_same_folder(from, folder) {
             return Ok(Vec::new());
         }
         let door = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
@@ -261,7 +261,7 @@ impl Editable {
     ///
     /// # Errors
     ///
-    /// The path and the reason. The old file is unchanged then.
+    /// The path and the reason. The old file is unchanged then; of several texts, some may have been written before.
     pub fn save(
         &mut self,
         adapter: &ModelAdapter,
@@ -270,7 +270,7 @@ impl Editable {
     ) -> Result<Vec<PathBuf>, String> {
         let own = self.is_own(output);
         let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
-        let how = Writing { overwrite, versions: None, becomes: own };
+        let how = Writing { overwrite, replaces: &[], versions: None, becomes: own };
         let files = self.files(plan, output)?;
         let saved = self.write(adapter, files, how).map_err(|error| error.to_string())?;
         Ok(saved.files)
@@ -346,6 +346,11 @@ pub(super) fn opened(
         Some(door) => format.edit(name, bytes, door, &options),
         None => format.edit(name, bytes, &NoFiles, &options),
     }
+}
+
+/// Returns whether two paths lead to the same folder.
+pub(super) fn is_same_folder(a: &Path, b: &Path) -> bool {
+    a == b || std::fs::canonicalize(a).ok().is_some_and(|a| std::fs::canonicalize(b).is_ok_and(|b| a == b))
 }
 
 pub(super) fn same_file(a: &Path, b: &Path) -> bool {

@@ -1,8 +1,8 @@
 //! Writes the files of a save, and makes later saves relative to them.
 
-use super::adapter::ModelAdapter;
+use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
-use super::editable::{Editable, WrittenFile, make_folder, opened, places};
+use super::editable::{Editable, WrittenFile, is_same_folder, make_folder, opened, places, same_file};
 use super::edited_content::EditedContent;
 use super::source::file_name;
 use super::unused;
@@ -11,9 +11,9 @@ use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::buffer_of_save;
 use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_store::{
-    ExpectedFile, RealFiles, SaveOptions, folder_of, remove_unfinished, save as save_file,
+    ExpectedFile, FileState, RealFiles, SaveOptions, folder_of, remove_unfinished, save as save_file,
 };
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl Editable {
@@ -22,7 +22,8 @@ impl Editable {
     ///
     /// # Errors
     ///
-    /// The reason. Existing files are unchanged then, unless the error names them.
+    /// The reason. If another program changed one of the files, none was written. Otherwise those before the one that failed were, and
+    /// later saves are relative to them too.
     pub(super) fn write(
         &mut self,
         adapter: &ModelAdapter,
@@ -30,32 +31,29 @@ impl Editable {
         how: Writing<'_>,
     ) -> Result<FilesSaved, SaveFailure> {
         let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
-        if how.overwrite == Overwrite::AsRead
-            && let Some((path, _)) = self.changed_beside()
-        {
-            return Err(SaveFailure::Changed(path.to_path_buf()));
-        }
+        self.check_expected(&files, &main, &how)?;
         let mut beside = BesideStamps::default();
         let mut saved = FilesSaved::default();
         for (path, bytes) in &files {
-            make_folder(path)?;
-            let old = self.beside.of(path).filter(|_| how.overwrite == Overwrite::AsRead);
-            let is_new_text =
-                matches!(&self.content, EditedContent::Texts(_)) && how.overwrite == Overwrite::AsRead;
-            let expected = match old {
-                Some(stamp) => ExpectedFile::Stamp(stamp),
-                // A text that the project got since it was opened.
-                None if is_new_text => ExpectedFile::Nothing,
-                None => ExpectedFile::Anything,
-            };
             // A text of a project has versions as the project has.
             let versions = how.versions.filter(|_| matches!(self.content, EditedContent::Texts(_)));
-            let options = SaveOptions { expected, versions };
-            let done = save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
-            beside.add(done.path, done.stamp);
-            saved.files.push(path.clone());
+            let options = SaveOptions { expected: self.expected(path, &how), versions };
+            let done = make_folder(path)
+                .map_err(SaveFailure::Other)
+                .and_then(|()| save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of));
+            match done {
+                Ok(done) => {
+                    beside.add(done.path, done.stamp);
+                    saved.notices.extend(done.notices);
+                    saved.files.push(path.clone());
+                }
+                Err(reason) => {
+                    self.note_written(adapter, &main, &saved.files, beside);
+                    return Err(reason);
+                }
+            }
         }
-        if how.overwrite == Overwrite::AsRead && how.becomes && self.has_unchanged_main(&main, &bytes) {
+        if self.keeps_main(&main, &bytes, how.overwrite) {
             self.beside.extend(beside);
             saved.bytes = bytes.len();
             saved.files.push(main);
@@ -68,11 +66,18 @@ impl Editable {
             _ => ExpectedFile::Anything,
         };
         let options = SaveOptions { expected, versions: how.versions };
-        let done = save_file(&RealFiles, &main, &bytes, &options).map_err(SaveFailure::of)?;
+        let done = match save_file(&RealFiles, &main, &bytes, &options).map_err(SaveFailure::of) {
+            Ok(done) => done,
+            Err(reason) => {
+                self.note_written(adapter, &main, &saved.files, beside);
+                return Err(reason);
+            }
+        };
         saved.files.push(main.clone());
-        saved.notices = done.notices;
+        saved.notices.extend(done.notices);
         saved.bytes = bytes.len();
-        let is_elsewhere = self.path.as_deref().is_some_and(|path| folder_of(path) != folder_of(&main));
+        let is_elsewhere =
+            self.path.as_deref().is_some_and(|path| !is_same_folder(folder_of(path), folder_of(&main)));
         if is_elsewhere && matches!(self.content, EditedContent::Texts(_)) {
             let notice = "its models were not copied to the new folder; `dragonfly pack` collects all files of a scene";
             saved.notices.push(notice.to_owned());
@@ -97,11 +102,78 @@ impl Editable {
         Ok(saved)
     }
 
-    /// Returns whether a save writes other texts and leaves the main one, at this path, as it is.
-    pub(super) fn has_unchanged_main(&self, path: &Path, bytes: &[u8]) -> bool {
+    /// Returns what a file next to the main one must be when it is written.
+    fn expected(&self, path: &Path, how: &Writing<'_>) -> ExpectedFile<'_> {
+        let is_text = matches!(self.content, EditedContent::Texts(_));
+        match self.beside.of(path) {
+            _ if how.overwrite != Overwrite::AsRead || how.replaces.iter().any(|other| other == path) => {
+                ExpectedFile::Anything
+            }
+            Some(stamp) => ExpectedFile::Stamp(stamp),
+            // A text that the project got since it was opened.
+            None if is_text => ExpectedFile::Nothing,
+            None => ExpectedFile::Anything,
+        }
+    }
+
+    /// Checks that no other program changed or created any of the files, before the first one is written.
+    fn check_expected(
+        &self,
+        files: &[WrittenFile],
+        main: &Path,
+        how: &Writing<'_>,
+    ) -> Result<(), SaveFailure> {
+        if how.overwrite == Overwrite::AsRead {
+            let is_decided = |path: &Path| how.replaces.iter().any(|other| same_file(other, path));
+            if let Some((path, _)) = self.changed_beside().filter(|(path, _)| !is_decided(path)) {
+                return Err(SaveFailure::Changed(path.to_path_buf()));
+            }
+            let state = self.stamp.as_ref().and_then(|stamp| stamp.state(&RealFiles, main).ok());
+            if state == Some(FileState::Changed) {
+                return Err(SaveFailure::Changed(main.to_path_buf()));
+            }
+        }
+        for (path, _) in files {
+            if matches!(self.expected(path, how), ExpectedFile::Nothing) && path.symlink_metadata().is_ok() {
+                return Err(SaveFailure::Exists(path.clone()));
+            }
+        }
+        if how.overwrite == Overwrite::Nothing && main.symlink_metadata().is_ok() {
+            return Err(SaveFailure::Exists(main.to_path_buf()));
+        }
+        Ok(())
+    }
+
+    /// Makes later saves relative to the texts that a save wrote before it failed.
+    fn note_written(
+        &mut self,
+        adapter: &ModelAdapter,
+        main: &Path,
+        written: &[PathBuf],
+        beside: BesideStamps,
+    ) {
+        let EditedContent::Texts(old) = &self.content else { return };
+        if !self.is_own(main) {
+            return;
+        }
+        let folder = folder_of(main);
+        let is_written = |file: &TextFile| written.iter().any(|path| *path == folder.join(&*file.name));
+        let (mut texts, new) = (old.list().to_vec(), adapter.texts().list());
+        for file in new.iter().filter(|file| is_written(file)) {
+            match texts.iter_mut().find(|old| old.name == file.name) {
+                Some(old) => old.text = file.text.clone(),
+                None => texts.push(file.clone()),
+            }
+        }
+        self.content = EditedContent::Texts(TextFiles::new(texts));
+        self.beside.extend(beside);
+    }
+
+    /// Returns whether a save as `path` writes only other texts and leaves the main one, with these bytes, as it is.
+    pub(super) fn keeps_main(&self, path: &Path, bytes: &[u8], overwrite: Overwrite) -> bool {
         let EditedContent::Texts(texts) = &self.content else { return false };
         let is_same = texts.main().is_some_and(|text| text.as_bytes() == bytes);
-        texts.list().len() > 1 && is_same && self.is_own(path)
+        overwrite == Overwrite::AsRead && texts.list().len() > 1 && is_same && self.is_own(path)
     }
 
     /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.

@@ -4,14 +4,17 @@
 //! become one step of the project, and are saved with it ([`super::project_edits`]).
 
 use super::edit::{Edit, parse_lines};
+use super::job::JobNews;
 use super::message::DocumentReply;
 use super::open::{Change, Open};
 use super::owner::Document;
-use super::project_edits::{EditedModel, kept_in};
+use super::project_edits::{EditedModel, kept_in, made_for};
+use super::scene_model_source::{KeptEdits, SceneModelSource};
 use super::scene_models::SceneModelNews;
-use super::waiting_scene::{SceneModelEdit, WaitingScene};
+use super::waiting_scene::{OutdatedEdits, OutdatedEditsChoice, SceneModelEdit, WaitingScene};
 use super::{OpenedModel, Source};
 use crate::text::sentence;
+use dragonfly_runtime::Address;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -26,8 +29,14 @@ impl Document {
         }
     }
 
-    /// Takes a model of the open scene that was read.
+    /// Takes a model that was read for the open scene, or for the one that waits.
     pub(super) fn scene_model_read(&mut self, news: SceneModelNews) {
+        if let Some(waiting) = &mut self.scene {
+            if let Some(scene) = &mut waiting.open.scene {
+                scene.take(news);
+            }
+            return;
+        }
         let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
         if scene.is_some_and(|scene| scene.take(news)) {
             self.changed();
@@ -37,56 +46,62 @@ impl Document {
     /// Starts to read a model of the open scene, to edit it.
     pub(super) fn edit_model(&mut self, name: &str) {
         match self.model_to_edit(name) {
-            Ok((source, model)) => {
-                self.open(source, None);
-                if let Some(job) = &mut self.job {
-                    job.of_scene = Some(model);
-                }
-            }
+            Ok(model) => self.read_model(model),
             Err(reason) => self.reply(DocumentReply::Refused(sentence(&reason))),
         }
     }
 
-    fn model_to_edit(&self, name: &str) -> Result<(Source, SceneModelEdit), String> {
-        let open = self.open.as_ref().ok_or("nothing is open")?;
-        let scene =
-            open.scene.as_ref().ok_or("only models of a scene are edited in it; show the scene first")?;
-        let project = scene.project();
-        let file = project.map_or(name, |project| project.source_of(name)).to_owned();
-        let path = scene.models().folder()?.path_of(&file).map_err(|error| format!("{file}: {error}"))?;
-        let texts = open.edited.adapter().texts();
-        let edits = project.and_then(|project| project.edits_of(name)).and_then(|name| texts.called(name));
-        let edits = edits.map(|file| Arc::clone(&file.text));
-        Ok((Source::File(path), SceneModelEdit { name: name.to_owned(), file, edits }))
+    /// Starts to read a model of the scene that is open or waits. It takes the place of the one that is edited.
+    pub(super) fn read_model(&mut self, model: SceneModelEdit) {
+        self.open(Source::of(model.path.clone(), model.source.conventions), None);
+        if let Some(job) = &mut self.job {
+            job.of_scene = Some(model);
+        }
     }
 
-    /// Shows a model of the scene, which waits. The edits that the project keeps are steps of it.
-    pub(super) fn enter_model(&mut self, opened: OpenedModel, model: SceneModelEdit) {
-        let Some(scene) = self.open.take() else { return };
-        (self.waiting, self.noticed) = (None, None);
-        let mut open = Open::new(opened, self.autosave.clone());
-        let mut unfit = Vec::new();
-        match model.edits.as_deref().map(parse_lines) {
-            Some(Ok(edits)) => {
-                for (line, edit) in edits {
-                    if let Err(error) = open.edited.ask(edit, None) {
-                        unfit.push(format!("line {line}: {error}"));
-                    }
-                }
-            }
-            Some(Err(error)) => unfit.push(error.to_string()),
-            None => {}
+    fn model_to_edit(&mut self, name: &str) -> Result<SceneModelEdit, String> {
+        let open = self.open.as_mut().ok_or("nothing is open")?;
+        let source = source_in(open, name, &self.own);
+        let scene =
+            open.scene.as_ref().ok_or("only models of a scene are edited in it; show the scene first")?;
+        if scene.has_project_errors() {
+            let reason = "the text of the project has errors, so that it cannot keep edits of a model; correct it first";
+            return Err(reason.to_owned());
         }
+        let path = scene.models().folder()?.path_of(&source.file);
+        let path = path.map_err(|error| format!("{}: {error}", source.file))?;
+        Ok(SceneModelEdit { name: name.to_owned(), source, path })
+    }
+
+    /// Shows a model of the scene, which waits. The edits that the project keeps are steps of it. If they were made for another file, asks
+    /// what becomes of them instead.
+    pub(super) fn enter_model(&mut self, opened: OpenedModel, model: SceneModelEdit) {
+        let mut open = Open::new(opened, self.autosave.clone());
+        let kept = model.source.edits.as_ref();
+        let hash = open.stamp().map(|stamp| stamp.hash);
+        if let (Some(kept), Some(hash)) = (kept, hash)
+            && !kept.are_of(hash)
+        {
+            let (title, model) = (open.file.title.clone(), model.name);
+            self.stay();
+            return self.reply(DocumentReply::OutdatedEdits(OutdatedEdits { model, title, hash }));
+        }
+        let Some(scene) = self.scene_for_model() else { return };
+        let unfit = kept.map(|kept| apply_kept(&mut open, kept)).unwrap_or_default();
+        open.edited.mark_kept();
         open.look();
         let has_steps = open.edited.steps().1 > 0;
         let loaded = Arc::clone(&open.loaded);
-        let file = model.file.clone();
+        if has_steps {
+            let (path, stamp) = (open.file.path.clone(), open.stamp());
+            open.journal_writer.begin_later_with_steps(path, stamp);
+        }
+        let file = model.source.file.clone();
         self.open = Some(open);
         self.scene = Some(WaitingScene { open: scene, model });
         self.reply(DocumentReply::Opened(loaded));
-        match has_steps {
-            true => self.begin_journal_of_steps(),
-            false => self.begin_journal(),
+        if !has_steps {
+            self.begin_journal();
         }
         if !unfit.is_empty() {
             let text = format!("Edits of {file} do not fit it: {}", unfit.join("; "));
@@ -96,25 +111,57 @@ impl Document {
         self.changed();
     }
 
-    /// Starts another journal, with the steps of the open document.
-    pub(super) fn begin_journal_of_steps(&mut self) {
-        let (Some(open), Some(autosave)) = (&mut self.open, &self.autosave) else { return };
-        let (path, stamp) = (open.file.path.clone(), open.stamp());
-        match autosave.begin_another(path.as_deref(), stamp.as_ref()) {
-            Ok(journal) => open.begin_journal_with_steps(journal, Instant::now()),
-            Err(error) => open.journal_writer.not_begun(path, stamp, &error),
+    /// Takes the scene out, to show one of its models; a model of it that is edited is closed. Returns `None` where there is no scene.
+    fn scene_for_model(&mut self) -> Option<Open> {
+        self.noticed = None;
+        if let Some(WaitingScene { open: mut scene, .. }) = self.scene.take() {
+            self.waiting = None;
+            if let Some(model) = self.open.take() {
+                self.close_document(model);
+            }
+            scene.unwanted = false;
+            return Some(scene);
         }
+        self.open.as_ref().filter(|open| open.scene.is_some())?;
+        // The scene records its work, although the user has not decided about that of an earlier session.
+        if self.waiting.take().is_some() {
+            self.begin_beside();
+        }
+        self.open.take()
     }
 
     /// Shows the scene again. The project keeps the edits that are not saved into the model.
     pub(super) fn show_scene(&mut self, now: Instant) {
-        let Some(mut waiting) = self.scene.take() else {
-            let reason = "No model of a scene is being edited";
-            return self.reply(DocumentReply::Refused(reason.to_owned()));
+        let shown = match self.scene {
+            Some(_) => self.return_to_scene(now),
+            None => Err("no model of a scene is being edited".to_owned()),
         };
-        if let Err(reason) = self.keep_edits(&mut waiting, now) {
-            self.scene = Some(waiting);
-            return self.reply(DocumentReply::Refused(sentence(&reason)));
+        if let Err(reason) = shown {
+            self.reply(DocumentReply::Refused(sentence(&reason)));
+        }
+    }
+
+    /// Shows the scene that waits, if there is one. Its project keeps the edits that are not saved into the model, unless the user
+    /// discarded them.
+    ///
+    /// # Errors
+    ///
+    /// The reason why edits would be lost. The model is still shown then.
+    pub(super) fn return_to_scene(&mut self, now: Instant) -> Result<(), String> {
+        let Some(mut waiting) = self.scene.take() else { return Ok(()) };
+        let loses = self.open.as_ref().is_some_and(Open::has_unsaved_work);
+        match self.keep_edits(&mut waiting, now) {
+            Err(reason) if loses => {
+                self.scene = Some(waiting);
+                return Err(reason);
+            }
+            // The file of the model has everything.
+            Err(reason) => self.reply(DocumentReply::Warning(sentence(&reason))),
+            Ok(()) => {}
+        }
+        // A file that is still being read would take the place of the model.
+        if self.job.take().is_some() {
+            self.reply(DocumentReply::Cancelled);
         }
         let WaitingScene { open: mut scene, model } = waiting;
         let is_recorded = !scene.journal_writer.has_gap();
@@ -129,7 +176,7 @@ impl Document {
             }
         }
         if let Some(scene) = &mut scene.scene {
-            scene.read_again(&model.name);
+            scene.read_again(&model.source.file);
         }
         (self.waiting, self.noticed) = (None, None);
         let loaded = Arc::clone(&scene.loaded);
@@ -137,19 +184,29 @@ impl Document {
         self.reply(DocumentReply::Opened(loaded));
         self.report_trouble();
         self.changed();
+        Ok(())
     }
 
     /// Gives the project of a waiting scene the edits that are not saved into the open model.
     fn keep_edits(&self, waiting: &mut WaitingScene, now: Instant) -> Result<(), String> {
-        let Some(open) = &self.open else { return Ok(()) };
-        let unsaved = open.edited.unsaved();
+        let Some(open) = self.open.as_ref().filter(|open| !open.unwanted) else { return Ok(()) };
+        if open.edited.is_kept() {
+            return Ok(());
+        }
         let title = &open.file.title;
+        if open.file.path.as_deref() != Some(&*waiting.model.path) {
+            return match open.has_unsaved_work() {
+                true => Err(format!("{title} is not the file of the scene any more; save it first")),
+                false => Err(format!("the scene still plays {}, and not {title}", waiting.model.source.file)),
+            };
+        }
+        let unsaved = open.edited.unsaved();
         if unsaved.has_undone {
             return Err(format!("steps of {title} are undone that its file contains; save it first"));
         }
         let edits: Vec<Edit> =
             open.edited.steps().0.range(unsaved.steps).map(|step| step.edit.clone()).collect();
-        let scene = &mut waiting.open;
+        let WaitingScene { open: scene, model } = waiting;
         let is_project = scene.scene.as_ref().is_some_and(|scene| scene.project().is_some());
         if !is_project {
             return match edits.is_empty() {
@@ -160,9 +217,89 @@ impl Document {
             };
         }
         let hash = open.stamp().map(|stamp| stamp.hash);
-        let model = EditedModel { name: &waiting.model.name, file: &waiting.model.file, hash, edits: &edits };
-        let Some(edit) = kept_in(scene.edited.adapter().texts(), &model)? else { return Ok(()) };
-        let done = scene.change(Change::Edit(edit.into(), None), now);
-        done.map(|_| ()).map_err(|error| error.to_string())
+        let edited = EditedModel { name: &model.name, file: &model.source.file, hash, edits: &edits };
+        give_edits(scene, &edited, now)
     }
+
+    /// Decides about edits that a project keeps for another file of a model, and goes on to edit the model.
+    pub(super) fn decide_outdated(
+        &mut self,
+        outdated: &OutdatedEdits,
+        choice: OutdatedEditsChoice,
+        now: Instant,
+    ) {
+        let scene = match &mut self.scene {
+            Some(waiting) => Some(&mut waiting.open),
+            None => self.open.as_mut(),
+        };
+        let done = match scene {
+            Some(scene) if scene.scene.is_some() => settle(scene, outdated, choice, now),
+            _ => Err("the scene is not open any more".to_owned()),
+        };
+        if let Err(reason) = done {
+            return self.reply(DocumentReply::Refused(sentence(&reason)));
+        }
+        match &mut self.scene {
+            Some(WaitingScene { open, model }) => {
+                model.source = source_in(open, &model.name, &self.own);
+                let model = model.clone();
+                self.read_model(model);
+            }
+            None => {
+                self.changed();
+                self.edit_model(&outdated.model);
+            }
+        }
+    }
+}
+
+/// Returns what a script means by `name`, in the newest texts of a scene.
+fn source_in(scene: &mut Open, name: &str, document: &Address<JobNews>) -> SceneModelSource {
+    // A change of a text that came just before counts.
+    scene.update_scene(document);
+    let project = scene.scene.as_ref().and_then(|scene| scene.project());
+    SceneModelSource::of(name, project.map(|project| &**project), scene.edited.adapter().texts())
+}
+
+/// Applies edits that a project keeps as steps. Returns those that do not fit, a sentence for each.
+fn apply_kept(open: &mut Open, kept: &KeptEdits) -> Vec<String> {
+    match parse_lines(&kept.text) {
+        Ok(edits) => {
+            let apply = |(line, edit)| {
+                let error = open.edited.ask(edit, None).err()?;
+                Some(format!("line {line}: {error}"))
+            };
+            edits.into_iter().filter_map(apply).collect()
+        }
+        Err(error) => vec![error.to_string()],
+    }
+}
+
+/// Gives the project of a scene exactly these edits of a model.
+fn give_edits(scene: &mut Open, model: &EditedModel<'_>, now: Instant) -> Result<(), String> {
+    let folder = scene.scene.as_ref().map(|scene| scene.models().folder()).transpose()?;
+    let has_file = |name: &str| folder.is_some_and(|folder| folder.has(name));
+    let Some(edit) = kept_in(scene.edited.adapter().texts(), model, has_file)? else { return Ok(()) };
+    let done = scene.change(Change::Edit(edit.into(), None), now);
+    done.map(|_| ()).map_err(|error| error.to_string())
+}
+
+/// Carries out the choice of the user about edits that were made for another file.
+fn settle(
+    scene: &mut Open,
+    outdated: &OutdatedEdits,
+    choice: OutdatedEditsChoice,
+    now: Instant,
+) -> Result<(), String> {
+    let texts = scene.edited.adapter().texts();
+    let edit = match choice {
+        OutdatedEditsChoice::Apply => made_for(texts, &outdated.model, outdated.hash)?,
+        OutdatedEditsChoice::Remove => {
+            let (name, hash) = (&*outdated.model, Some(outdated.hash));
+            // The project has the model and its edits, so that neither gets a new name.
+            kept_in(texts, &EditedModel { name, file: name, hash, edits: &[] }, |_| false)?
+        }
+    };
+    let Some(edit) = edit else { return Ok(()) };
+    scene.change(Change::Edit(edit.into(), None), now).map(|_| ()).map_err(|error| error.to_string())
 }

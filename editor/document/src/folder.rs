@@ -71,6 +71,11 @@ impl Folder {
         if resolved.starts_with(&self.root) { Ok(resolved) } else { Err(FileAccessError::Outside) }
     }
 
+    /// Returns whether there is a file called `name`, or something else of this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        checked(name).is_ok_and(|name| self.root.join(name).symlink_metadata().is_ok())
+    }
+
     /// Returns the bytes of the file `name`: a relative path with `/` between its parts, percent-decoded.
     ///
     /// Links that stay inside the folder are followed.

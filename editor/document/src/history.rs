@@ -44,6 +44,7 @@ struct RemovedSteps {
     steps: Vec<HistoryStep>,
     saved: Option<usize>,
     saving: Option<usize>,
+    kept: Option<usize>,
 }
 
 /// The difference between the last save and the present state.
@@ -66,6 +67,9 @@ pub struct Edited {
     saved: Option<usize>,
     /// The same for the save that is running.
     saving: Option<usize>,
+    /// Number of steps that were applied when another file kept them, which the file of the model does not contain; `None` where there is
+    /// none, or where neither undo nor redo leads there.
+    kept: Option<usize>,
     /// Numbers of first steps that the last save and the running one contain too, while `saved` or `saving` is `None`.
     shared: [usize; 2],
     /// Size of all steps in bytes, about.
@@ -98,6 +102,7 @@ impl Edited {
             done: 0,
             saved: Some(0),
             saving: None,
+            kept: None,
             shared: [0; 2],
             bytes: 0,
             cut: false,
@@ -179,9 +184,9 @@ impl Edited {
         if goes_on {
             self.forget_after(self.done - 1);
         } else {
-            let (saved, saving) = (self.saved, self.saving);
+            let (saved, saving, kept) = (self.saved, self.saving, self.kept);
             let steps = self.forget_after(self.done);
-            self.removed = gesture.map(|_| RemovedSteps { steps, saved, saving });
+            self.removed = gesture.map(|_| RemovedSteps { steps, saved, saving, kept });
         }
         self.lose_saves(self.steps.len());
         self.drag = gesture.and_then(|_| ValueDrag::of(&self.adapter, &edit, &inverse));
@@ -204,10 +209,10 @@ impl Edited {
             let removed = self.removed.take();
             self.undo();
             self.forget_after(self.done);
-            if let Some(RemovedSteps { steps, saved, saving }) = removed {
+            if let Some(RemovedSteps { steps, saved, saving, kept }) = removed {
                 self.bytes += steps.iter().map(|step| step.bytes).sum::<usize>();
                 self.steps.extend(steps);
-                (self.saved, self.saving) = (saved, saving);
+                (self.saved, self.saving, self.kept) = (saved, saving, kept);
             }
         }
         is_last && its_step
@@ -246,8 +251,30 @@ impl Edited {
 
     /// Marks the present state as saved.
     pub fn mark_saved(&mut self) {
-        self.removed = None;
+        (self.removed, self.kept) = (None, None);
         self.saved = Some(self.done);
+    }
+
+    /// Marks the present state as kept: another file than that of the model has its steps, so that there is no unsaved work.
+    pub(super) fn mark_kept(&mut self) {
+        self.end_gesture();
+        self.kept = Some(self.done);
+    }
+
+    /// Returns whether another file keeps the present state.
+    pub(super) fn is_kept(&self) -> bool {
+        self.kept == Some(self.done)
+    }
+
+    /// Returns the number of steps that were applied in the state without unsaved work: the kept one, or else the saved one; `None` where
+    /// neither undo nor redo leads there.
+    pub(super) fn settled(&self) -> Option<usize> {
+        self.kept.or(self.saved)
+    }
+
+    /// Returns whether closing the document would lose work: it is neither saved nor kept.
+    pub fn has_unsaved(&self) -> bool {
+        !self.is_saved() && !self.is_kept()
     }
 
     /// Notes that the present state is being saved, and ends the last gesture, whose later edits are not saved.
@@ -260,13 +287,14 @@ impl Edited {
     pub fn end_save(&mut self, succeeded: bool) {
         let saving = self.saving.take();
         if succeeded {
-            self.saved = saving;
+            // What was kept is a change of another file than the one that was written.
+            (self.saved, self.kept) = (saving, None);
             self.shared[0] = self.shared[1];
         }
         if let Some(removed) = &mut self.removed {
             let saving = removed.saving.take();
             if succeeded {
-                removed.saved = saving;
+                (removed.saved, removed.kept) = (saving, None);
             }
         }
     }
@@ -277,6 +305,7 @@ impl Edited {
             *shared = saved.unwrap_or(*shared).min(common);
             *saved = saved.filter(|saved| *saved <= common);
         }
+        self.kept = self.kept.filter(|kept| *kept <= common);
     }
 
     /// Returns the number of steps applied or undone since the model was saved or opened. Where neither undo nor redo
@@ -315,7 +344,7 @@ impl Edited {
     /// Sets the saved state of restored steps; none where there are fewer steps.
     pub fn set_saved(&mut self, saved: Option<usize>) {
         self.saved = saved.filter(|saved| *saved <= self.steps.len());
-        self.shared = [0; 2];
+        (self.shared, self.kept) = ([0; 2], None);
     }
 
     /// Returns whether the oldest steps were removed because there were too many.
@@ -352,9 +381,11 @@ impl Edited {
             self.done -= 1;
             self.shared = self.shared.map(|shared| shared.saturating_sub(1));
             self.cut = true;
-            let removed =
-                self.removed.iter_mut().flat_map(|removed| [&mut removed.saved, &mut removed.saving]);
-            for saved in [&mut self.saved, &mut self.saving].into_iter().chain(removed) {
+            let removed = self
+                .removed
+                .iter_mut()
+                .flat_map(|removed| [&mut removed.saved, &mut removed.saving, &mut removed.kept]);
+            for saved in [&mut self.saved, &mut self.saving, &mut self.kept].into_iter().chain(removed) {
                 *saved = saved.and_then(|saved| saved.checked_sub(1));
             }
         }

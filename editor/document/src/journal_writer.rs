@@ -5,7 +5,9 @@
 
 use super::history::Gesture;
 use super::recorded::{EditsOrigin, Recorded};
-use dragonfly_store::{Autosave, FileStamp, Journal, JournalError, Successor, SuccessorJournal};
+use dragonfly_store::{
+    Autosave, FileContents, FileStamp, Journal, JournalError, Successor, SuccessorJournal,
+};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -29,6 +31,8 @@ pub(super) struct JournalWriter {
     wanted: Option<(Option<PathBuf>, Option<FileStamp>)>,
     /// Whether the journal could not be created so far.
     is_overdue: bool,
+    /// Whether the document has steps already that the journal is to begin with.
+    has_steps: bool,
     /// Whether this journal has the entry that names this program.
     begun: bool,
     /// Time of the last failure, while edits are missing in the journal.
@@ -63,6 +67,12 @@ impl JournalWriter {
         self.wanted = Some((document, stamp));
     }
 
+    /// Creates the journal with the first edit, and with the steps that the document has already: another file has them.
+    pub(super) fn begin_later_with_steps(&mut self, document: Option<PathBuf>, stamp: Option<FileStamp>) {
+        self.begin_later(document, stamp);
+        self.has_steps = true;
+    }
+
     /// Continues with this journal, and returns the one before.
     pub(super) fn set(&mut self, journal: Journal) -> Option<Journal> {
         self.compact = journal.size();
@@ -90,12 +100,12 @@ impl JournalWriter {
         self.complete().map(|journal| journal.successor())
     }
 
-    /// Switches to the journal that was written for the save, and records that a file of `size` bytes with this hash is about to be
-    /// written.
+    /// Switches to the journal that was written for the save, and records that the file is about to be written with these contents;
+    /// `None` where the save writes only other files.
     pub(super) fn record_saving(
         &mut self,
         new: Option<Result<SuccessorJournal, JournalError>>,
-        (size, hash): (u64, u64),
+        file: Option<FileContents>,
         now: Instant,
     ) {
         if self.gap.is_none()
@@ -106,7 +116,7 @@ impl JournalWriter {
         }
         let mut save = self.save.take().unwrap_or_default();
         if let Some(journal) = self.complete() {
-            let done = journal.saving_without(save.newer.len() as u64, size, hash);
+            let done = journal.saving_without(save.newer.len() as u64, file);
             save.is_recorded = done.is_ok();
             self.report_unrecorded_save(done);
         }
@@ -187,7 +197,7 @@ impl JournalWriter {
 
     /// Appends an entry. When this returns, the system has it, or there is a warning that it has not.
     ///
-    /// Returns whether a snapshot is due at once: a journal that could not be created before is there now.
+    /// Returns whether a snapshot is due at once: the journal was created, and lacks earlier steps.
     #[must_use]
     pub(super) fn record(&mut self, about: &EditsOrigin, recorded: &Recorded<'_>, now: Instant) -> bool {
         let gesture = match recorded {
@@ -238,18 +248,18 @@ impl JournalWriter {
         }
     }
 
-    /// Creates the journal that is wanted, if there is one. Returns whether it had failed before.
+    /// Creates the journal that is wanted, if there is one. Returns whether it lacks earlier steps.
     fn begin(&mut self, now: Instant) -> bool {
         let (Some(autosave), Some((document, stamp))) = (&self.autosave, self.wanted.take()) else {
             return false;
         };
         match autosave.begin_another(document.as_deref(), stamp.as_ref()) {
             Ok(journal) => {
-                let overdue = self.is_overdue;
+                let lacks_steps = self.is_overdue || self.has_steps;
                 self.set(journal);
                 // Until the snapshot is written, edits are missing.
-                self.gap = overdue.then_some(now);
-                overdue
+                self.gap = lacks_steps.then_some(now);
+                lacks_steps
             }
             Err(error) => {
                 self.not_begun(document, stamp, &error);
@@ -366,7 +376,8 @@ impl JournalWriter {
         match done {
             Ok(()) => {
                 self.compact = journal.size();
-                if self.gap.take().is_some() {
+                let is_first = std::mem::take(&mut self.has_steps);
+                if self.gap.take().is_some() && !is_first {
                     self.trouble.push("Unsaved work is recorded again".to_owned());
                 }
             }

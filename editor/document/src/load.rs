@@ -2,7 +2,7 @@
 //! Loading reports its progress and can be cancelled.
 
 use super::adapter::{ModelAdapter, TextFiles, unused_layers};
-use super::beside::ReadOnce;
+use super::beside::{BesideStamps, ReadOnce};
 use super::images::ImageSurvey;
 use super::import;
 use super::source::{LoadError, Source};
@@ -10,6 +10,7 @@ use super::text_source::{ReadTexts, is_scene, read_texts};
 use super::{Cancel, Editable, FileAccessError, Folder, LoadStage, LoadedModel, Progress, read_file};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::bounds_of_pose;
+use dragonfly_anim::format::Conventions;
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_store::{FileData, FileStamp, RealFiles};
 use std::cell::RefCell;
@@ -73,20 +74,29 @@ pub fn open_model(
     Ok(OpenedModel { loaded, editable, texts: TextFiles::default() })
 }
 
-/// Loads the model called `name` in `folder`, for a scene, and returns the hash of its file too. It is not edited.
+/// Loads the model called `name` in `folder`, for a scene, and returns also the hash of its file, and the state of it and of the files
+/// next to it. It is not edited.
 pub(super) fn load_inside(
     folder: &Folder,
     name: &str,
+    conventions: Conventions,
     cancel: &Cancel,
-) -> Result<(LoadedModel, u64), LoadError> {
+) -> Result<(LoadedModel, u64, BesideStamps), LoadError> {
     let title = name.rsplit('/').next().unwrap_or(name).to_owned();
     let wrong =
         |error: FileAccessError| LoadError::Format { title: title.clone(), reason: error.to_string() };
     let path = folder.path_of(name).map_err(wrong)?;
+    let before = FileStamp::before(&RealFiles, &path).ok();
     let bytes = folder.read(name, FILE_BYTES).map_err(wrong)?;
     let door = Some(ReadOnce::of(&path).map_err(wrong)?);
-    let read = Read { source: &Source::File(path), bytes, before: None, door };
-    Ok((read.load(&mut |_| {}, cancel)?, dragonfly_store::hash(&read.bytes)))
+    let read = Read { source: &Source::of(path.clone(), conventions), bytes, before, door };
+    let stamp = read.stamp()?;
+    let loaded = read.load(&mut |_| {}, cancel)?;
+    let mut stamps = read.door.as_ref().map(ReadOnce::stamps).unwrap_or_default();
+    if let Some(stamp) = stamp {
+        stamps.add(path, stamp);
+    }
+    Ok((loaded, dragonfly_store::hash(&read.bytes), stamps))
 }
 
 impl OpenedModel {

@@ -1,8 +1,9 @@
 //! Edits of the texts of an old version of a document, moved to the texts of a new one.
 
 use super::adapter::TextFiles;
-use super::edit::{EditScript, Misfit, TextRef};
+use super::edit::{EditScript, Misfit, ScriptSplice, TextRef};
 use super::text_merge::TextMerge;
+use dragonfly_anim::stage::splice::{TextSplice, TextSplices};
 
 /// For each text of the old version where it differs from that of the new one, and which one that is.
 #[derive(Clone, Debug, Default)]
@@ -22,7 +23,8 @@ impl MergedTexts {
         Self(old.list().iter().enumerate().map(pair).collect())
     }
 
-    /// Returns the edit for the new texts; `None` where they have the same change already. `after` are the old texts after the edit.
+    /// Returns the part of an edit for the new texts; `None` where they have the same change already. `after` are the old texts after it.
+    /// The new texts must get what is returned, or be merged by [`Self::lost`] instead.
     ///
     /// # Errors
     ///
@@ -44,10 +46,8 @@ impl MergedTexts {
             self.0.push(Some((new.list().len(), TextMerge::default())));
             return Ok(Some(edit.clone()));
         }
-        let refused = |error| Misfit::Refused(super::adapter::EditError::Text(error));
-        let index = before.find(edit.text.as_ref()).map_err(refused)?;
+        let (index, splices) = place_of(edit, before)?;
         let file = &before.list()[index];
-        let splices = edit.splices_in(file).map_err(refused)?;
         let missing = || Misfit::NoText(file.name.to_string());
         let (other, merge) = self.0.get_mut(index).and_then(Option::as_mut).ok_or_else(missing)?;
         let (Some(old_after), Some(new)) = (after.list().get(index), new.list().get(*other)) else {
@@ -56,9 +56,16 @@ impl MergedTexts {
         match merge.mapped(&splices) {
             Ok(mapped) => {
                 merge.follow(&splices);
-                let label = edit.label.clone();
                 let text = (*other > 0).then_some(TextRef::Index(*other));
-                Ok(Some(EditScript { text, label, ..EditScript::of(&new.text, &mapped, "") }))
+                // What is replaced is what the edit says: if the new text differs there, it is refused.
+                let moved = |(old, new): (&TextSplice, &TextSplice)| ScriptSplice {
+                    at: new.range.start,
+                    old: file.text[old.range.clone()].to_owned(),
+                    new: new.text.clone(),
+                };
+                let splices = splices.list().iter().zip(mapped.list()).map(moved).collect();
+                let label = edit.label.clone();
+                Ok(Some(EditScript { text, create: false, splices, label, also: Vec::new() }))
             }
             Err(at) => {
                 let line = file.text[..at].lines().count().max(1);
@@ -67,4 +74,24 @@ impl MergedTexts {
             }
         }
     }
+
+    /// Follows a part of an edit that the new texts do not get; `after` are the old texts after it.
+    pub(super) fn lost(&mut self, edit: &EditScript, before: &TextFiles, after: &TextFiles, new: &TextFiles) {
+        if edit.create {
+            return self.0.push(None);
+        }
+        let Ok((index, splices)) = place_of(edit, before) else { return };
+        let Some((other, merge)) = self.0.get_mut(index).and_then(Option::as_mut) else { return };
+        if let (Some(old_after), Some(new)) = (after.list().get(index), new.list().get(*other)) {
+            merge.diverge(&splices, &old_after.text, &new.text);
+        }
+    }
+}
+
+/// Returns the text that a part of an edit changes, and its replacements there.
+fn place_of(edit: &EditScript, texts: &TextFiles) -> Result<(usize, TextSplices), Misfit> {
+    let refused = |error| Misfit::Refused(super::adapter::EditError::Text(error));
+    let index = texts.find(edit.text.as_ref()).map_err(refused)?;
+    let splices = edit.splices_in(&texts.list()[index]).map_err(refused)?;
+    Ok((index, splices))
 }

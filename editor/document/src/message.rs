@@ -6,7 +6,8 @@ use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
 use super::take_check::{CheckedTake, TakeCheck};
 use super::{
-    BoneMap, ClipOrder, ExportOrder, ExportReport, LoadedModel, Offer, Progress, Source, UnfitEdit, View,
+    BoneMap, ClipOrder, ExportOrder, ExportReport, LoadedModel, Offer, OutdatedEdits, OutdatedEditsChoice,
+    Progress, Source, UnfitEdit, View,
 };
 use dragonfly_store::FileState;
 use std::path::PathBuf;
@@ -16,11 +17,12 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub enum DocumentMessage {
     /// Opens a model in place of the open one. A model that is still loading is cancelled. Where the open one has unsaved work,
-    /// the document replies [`DocumentReply::Unsaved`] instead.
+    /// the document replies [`DocumentReply::Unsaved`] instead; a scene that waits is shown before, as by [`Self::ShowScene`].
     Open {
         /// The model to open.
         source: Source,
-        /// Opens it without asking: the user has decided. Unsaved work stays in the journal.
+        /// Opens it without asking: the user has decided. Unsaved work stays in the journal. The model of a scene that waits is read
+        /// again.
         anyway: bool,
     },
     /// Cancels loading, and the import of takes.
@@ -34,9 +36,11 @@ pub enum DocumentMessage {
     Reload,
     /// Reverts to the saved state.
     Revert,
-    /// Asks whether the program may end: the reply is [`DocumentReply::MayQuit`] or [`DocumentReply::Unsaved`].
+    /// Asks whether the program may end: the reply is [`DocumentReply::MayQuit`] or [`DocumentReply::Unsaved`]. A scene that waits is shown
+    /// first, as by [`Self::ShowScene`].
     Quit,
-    /// Discards the unsaved work: its journal goes to the trash folder when the document is closed.
+    /// Discards the unsaved work of the open document: its journal goes to the trash folder when the document is closed. A scene that waits
+    /// keeps its own.
     DoNotSave,
     /// Opens a model of the open scene to edit it; named as the script names it. The scene waits, with its history. The reply is
     /// [`DocumentReply::Opened`], with the edits that the project keeps as steps.
@@ -44,6 +48,8 @@ pub enum DocumentMessage {
     /// Shows the scene again, after [`Self::EditModel`]: a project keeps the edits that are not saved into the model, as one step, and plays
     /// them. The reply is [`DocumentReply::Opened`]; or [`DocumentReply::Refused`] where the edits would be lost.
     ShowScene,
+    /// The user's decision about edits of a model that were made for another file. The model is opened as by [`Self::EditModel`] then.
+    DecideOutdated(OutdatedEdits, OutdatedEditsChoice),
     /// Shows another script of the open project, by the name of its file.
     ShowScript(String),
     /// Checks whether another program changed the file.
@@ -108,6 +114,8 @@ pub enum DocumentReply {
     Plan(Result<String, String>, Option<SaveOrder>),
     /// Something was not done because the open model has unsaved work: the user decides.
     Unsaved(Then),
+    /// A model was not opened to edit it, because the edits that its project keeps were made for another file: the user decides.
+    OutdatedEdits(OutdatedEdits),
     /// Nothing is unsaved: the program may end.
     MayQuit,
     /// Another program changed or deleted the file.

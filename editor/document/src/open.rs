@@ -67,7 +67,8 @@ impl Open {
     pub(super) fn new(opened: OpenedModel, autosave: Option<Autosave>) -> Self {
         let adapter = opened.adapter();
         let OpenedModel { loaded, editable, texts } = opened;
-        let file = FileView { title: loaded.title.clone(), path: loaded.path.clone() };
+        let ending = editable.as_ref().map_or_else(|_| String::new(), Editable::ending);
+        let file = FileView { title: loaded.title.clone(), path: loaded.path.clone(), ending };
         let source = loaded.path.is_none().then_some(Source::BuiltIn);
         let conventions = loaded.conversion.chosen();
         let loaded = Arc::new(loaded);
@@ -137,7 +138,8 @@ impl Open {
     pub(super) fn leave_file(&mut self) {
         let source = self.source();
         self.about = EditsOrigin::new(Some(&source), source.conventions());
-        self.file = Arc::new(FileView { title: recovered(&self.loaded.title), path: None });
+        let (title, ending) = (recovered(&self.loaded.title), self.file.ending.clone());
+        self.file = Arc::new(FileView { title, path: None, ending });
         if let Ok(editable) = &mut self.editable {
             editable.forget_file();
         }
@@ -201,9 +203,9 @@ impl Open {
         }
     }
 
-    /// Undoes or redoes to the saved state. Returns `false` where neither leads there.
+    /// Undoes or redoes to the saved state, or to the one that a project keeps. Returns `false` where neither leads there.
     pub(super) fn revert(&mut self, now: Instant) -> bool {
-        let Some(saved) = self.edited.saved() else { return false };
+        let Some(saved) = self.edited.settled() else { return false };
         self.walk(|edited| edited.go_to(saved), now);
         self.look();
         true
@@ -241,6 +243,11 @@ impl Open {
         }
     }
 
+    /// Returns whether closing it would lose work that the user did not discard.
+    pub(super) fn has_unsaved_work(&self) -> bool {
+        self.edited.has_unsaved() && !self.unwanted
+    }
+
     /// Moves the journal to the trash folder: another one has its work.
     pub(super) fn discard_journal(&mut self, autosave: &Autosave) -> Result<(), String> {
         let Some(journal) = self.journal_writer.take() else { return Ok(()) };
@@ -260,7 +267,9 @@ impl Open {
         let (Some(mut journal), Some(autosave)) = (self.journal_writer.take(), autosave) else {
             return Ok(());
         };
-        let done = if (self.unwanted && !saved) || (saved && self.file.path.is_none()) {
+        // A project has the steps, and the file of the model has not.
+        let is_kept = !saved && self.edited.is_kept();
+        let done = if is_kept || (self.unwanted && !saved) || (saved && self.file.path.is_none()) {
             if journal.is_empty() { journal.close() } else { autosave.discard_own(journal).map(drop) }
         } else {
             // In the saved state there is no work to restore, only history.
@@ -291,11 +300,11 @@ impl Open {
         }
         let (steps, done) = self.edited.steps();
         let last = steps.back().map(|step| (step.edit.label(), &step.about));
-        let now = (steps.len(), done, self.edited.saved(), last);
+        let now = (steps.len(), done, self.edited.settled(), last);
         let shown = &self.history;
         let last = shown.steps.last().copied().zip(shown.about.last());
         if now != (shown.steps.len(), shown.done, shown.saved_at, last)
-            || self.edited.is_saved() != shown.saved
+            || self.edited.has_unsaved() == shown.saved
         {
             self.history = Arc::new(HistoryView::of(&self.edited));
         }

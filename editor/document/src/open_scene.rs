@@ -4,7 +4,8 @@ use super::Folder;
 use super::adapter::{TextFile, TextFiles};
 use super::job::JobNews;
 use super::scene_lines::SceneLines;
-use super::scene_models::{SceneModelNews, SceneModelSource, SceneModels};
+use super::scene_model_source::SceneModelSource;
+use super::scene_models::{SceneModelNews, SceneModels};
 use super::scene_view::{SceneModel, SceneView};
 use super::text_source::is_project;
 use dragonfly_anim::stage::project::StageProject;
@@ -15,6 +16,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
+
+/// What the user can do where the edits of a model were made for another file.
+const OTHER_FILE: &str = "open the model to choose whether they are applied to it or removed";
 
 /// The scene of a project without a script.
 const EMPTY: &str = "<script version=\"1\"/>";
@@ -88,7 +92,7 @@ impl OpenScene {
             texts: texts.clone(),
             project: self.project.clone(),
             project_errors: self.project_errors.as_slice().into(),
-            project_notes: self.project_notes().into(),
+            project_notes: self.project_notes(texts).into(),
             lines: self.lines.lines.clone(),
             line_errors: Arc::clone(&self.lines.errors),
             script: self.live.script().cloned(),
@@ -117,13 +121,24 @@ impl OpenScene {
         changed
     }
 
-    /// Reads a model again: its file changed.
-    pub(super) fn read_again(&mut self, name: &str) {
-        self.models.forget(name);
+    /// Reads the models of a file again: it changed.
+    pub(super) fn read_again(&mut self, file: &str) {
+        self.models.forget(file);
         self.planned = None;
     }
 
-    /// Tries again to read the models that are missing: they may be there now. Returns whether there are any.
+    /// Reads the models again from the folder of the script or project, which was saved at `path`.
+    pub(super) fn move_to(&mut self, path: &Path) {
+        self.models.move_to(Folder::of(path).map_err(|error| error.to_string()));
+        self.planned = None;
+    }
+
+    /// Returns whether the newest text of the project has errors, so that it cannot get edits of models.
+    pub(super) fn has_project_errors(&self) -> bool {
+        !self.project_errors.is_empty()
+    }
+
+    /// Reads again the models that were missing and those whose files another program changed. Returns whether there are any.
     pub(super) fn look_again(&mut self) -> bool {
         let any = self.models.look_again();
         if any {
@@ -161,13 +176,7 @@ impl OpenScene {
     /// Returns the models that the script names, each with its source.
     fn wanted(&self, texts: &TextFiles) -> BTreeMap<String, SceneModelSource> {
         let Some(script) = self.live.script() else { return BTreeMap::new() };
-        let project = self.project.as_deref();
-        let source = |name: &str| {
-            let file = project.map_or(name, |project| project.source_of(name)).to_owned();
-            let edits =
-                project.and_then(|project| project.edits_of(name)).and_then(|name| texts.called(name));
-            SceneModelSource { file, edits: edits.map(|file| Arc::clone(&file.text)) }
-        };
+        let source = |name: &str| SceneModelSource::of(name, self.project.as_deref(), texts);
         names(script).map(|name| (name.to_owned(), source(name))).collect()
     }
 
@@ -192,26 +201,31 @@ impl OpenScene {
         notes
     }
 
-    /// Returns what the user should know about the models of the project: files that changed, edits that do not fit.
-    fn project_notes(&self) -> Vec<ScriptError> {
+    /// Returns what the user should know about the models of the project: files that changed, edits that are not applied.
+    fn project_notes(&self, texts: &TextFiles) -> Vec<ScriptError> {
         let Some(project) = &self.project else { return Vec::new() };
         let mut notes = Vec::new();
         for model in project.elements_called("model") {
             let Some(id) = model.value("id") else { continue };
-            let now = self.models.hash(id).map(|hash| format!("{hash:016x}"));
-            if let (Some(old), Some(now)) = (model.value("hash"), now)
-                && old != now
-            {
+            let source = SceneModelSource::of(id, Some(project), texts);
+            let Some(file) = self.models.file(&source) else { continue };
+            let edits = source.edits.as_ref();
+            let is_other = edits.is_some_and(|edits| !edits.are_of(file.hash));
+            let now = format!("{:016x}", file.hash);
+            if model.value("hash").is_some_and(|old| old != now) && !is_other {
                 let message =
-                    format!("the file of \"{id}\" changed since its edits were made: its hash is {now}");
-                let help = "look at its takes; its edits are applied to it as far as they fit";
+                    format!("the file of \"{id}\" changed since it was used last: its hash is {now}");
+                let help = "look at its takes; it is noted with the next edits of the model";
                 notes.push(note(project.tree(), model.value_range("hash"), message, help));
             }
-            if let Some(unfit) = self.models.unfit(id) {
-                let element = project.elements_called("edits").find(|edits| edits.value("of") == Some(id));
-                let range = element.map_or_else(|| model.name.clone(), |edits| edits.value_range("src"));
-                notes.push(note(project.tree(), range, unfit.to_owned(), ""));
-            }
+            let Some(unfit) = &file.unfit else { continue };
+            let element = project.elements_called("edits").find(|edits| edits.value("of") == Some(id));
+            let (range, help) = match (is_other, element) {
+                (true, _) => (model.value_range("hash"), OTHER_FILE),
+                (false, Some(edits)) => (edits.value_range("src"), ""),
+                (false, None) => (model.name.clone(), ""),
+            };
+            notes.push(note(project.tree(), range, unfit.clone(), help));
         }
         notes.sort_by_key(|note| note.range.start);
         notes

@@ -11,7 +11,7 @@ use super::pose_library::PoseFiles;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
 use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
-use super::saving::{SaveOrder, Then};
+use super::saving::SaveOrder;
 use super::scan::{Decision, RecoveryScan};
 use super::waiting_scene::{SceneModelEdit, WaitingScene};
 use super::{Change, LoadError, Loader, Offer, OpenedModel, Progress, Source, View, open_model};
@@ -218,22 +218,10 @@ impl Document {
         }
     }
 
-    /// Opens a model, or replies that the open one has unsaved work.
-    pub(super) fn open_or_ask(&mut self, source: Source, anyway: bool) {
-        if !anyway && self.has_unsaved_work() {
-            return self.reply(DocumentReply::Unsaved(Then::Open(source)));
-        }
-        self.open(source, None);
-    }
-
-    pub(super) fn has_unsaved_work(&self) -> bool {
-        self.open.as_ref().is_some_and(|open| !open.edited.is_saved())
-            || self.scene.as_ref().is_some_and(WaitingScene::has_unsaved_work)
-    }
-
     /// Starts to load a model in the background; `offer` is the unsaved work that it is opened for.
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
         let ticket = self.next_ticket();
+        self.job = None;
         match start_loading(&self.own, ticket, source.clone(), self.load) {
             Ok(job) => {
                 let (gets_edits, of_scene) = (false, None);
@@ -252,6 +240,7 @@ impl Document {
     pub(super) fn cancel(&mut self) {
         let importing = self.cancel_import();
         if self.job.take().is_some() || importing {
+            self.stay();
             self.reply(DocumentReply::Cancelled);
         }
     }
@@ -281,7 +270,7 @@ impl Document {
     /// Opens a model in place of the open one, or reports why it could not be read.
     fn finish_opening(&mut self, loaded: Result<Box<OpenedModel>, LoadError>, running: LoadingModel) {
         match loaded {
-            Ok(opened) if running.gets_edits => self.rebase(*opened),
+            Ok(opened) if running.gets_edits => self.rebase(*opened, &running.source),
             Ok(opened) => {
                 self.close();
                 let open = Open::new(*opened, self.autosave.clone());
@@ -296,8 +285,12 @@ impl Document {
                 self.changed();
                 self.offer_late();
             }
-            Err(LoadError::Cancelled) => self.reply(DocumentReply::Cancelled),
+            Err(LoadError::Cancelled) => {
+                self.stay();
+                self.reply(DocumentReply::Cancelled);
+            }
             Err(error) => {
+                self.stay();
                 let reason = error.to_string();
                 self.reply(DocumentReply::Failed { source: running.source, reason });
                 self.offer_late();
@@ -316,8 +309,8 @@ impl Document {
         }
     }
 
-    fn close_document(&mut self, mut open: Open) {
-        if !open.edited.is_saved() && !open.unwanted && self.autosave.is_some() {
+    pub(super) fn close_document(&mut self, mut open: Open) {
+        if open.has_unsaved_work() && self.autosave.is_some() {
             let text = format!(
                 "The unsaved work of {} can be restored when the file is opened again",
                 open.file.title
@@ -364,6 +357,10 @@ impl Document {
             self.changed();
         } else if let Some(path) = open.file.path.clone() {
             // Undo no longer leads to the saved state, so the file is read again.
+            if let Some(model) = self.scene.as_ref().map(|scene| scene.model.clone()) {
+                open.unwanted = true;
+                return self.read_model(model);
+            }
             let chosen = open.source().conventions();
             self.open(Source::of(path, chosen), None);
         } else {
@@ -418,7 +415,8 @@ impl Document {
             open.update_scene(&self.own);
         }
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
-        let view = View { answered: self.answered, ..view };
+        let waiting_scene = self.scene.as_ref().map(|scene| scene.open.file.title.as_str().into());
+        let view = View { answered: self.answered, waiting_scene, ..view };
         self.shown_unrecorded = view.is_unrecorded;
         // Errors are ignored as in `reply`. The graphics thread comes first: it has more to do.
         if changed {

@@ -50,7 +50,7 @@ pub enum PackError {
 ///
 /// # Errors
 ///
-/// It cannot be read, has errors, or names files that are missing or outside of its folder.
+/// It cannot be read, has errors, names files that are missing or outside of its folder, or is too large to be unpacked again.
 pub fn pack(path: &Path, cancel: &Cancel) -> Result<Vec<u8>, PackError> {
     let title = file_name(path);
     let read = read_texts(path)?;

@@ -1,8 +1,9 @@
 //! Edits of a model that its project keeps: a file with one edit a line, which the project names.
 
-use super::adapter::TextFiles;
+use super::adapter::{TextFile, TextFiles};
 use super::edit::{Edit, EditScript, ScriptSplice, TextRef};
 use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, set_attribute};
 use std::collections::HashSet;
 
@@ -21,25 +22,26 @@ pub(super) struct EditedModel<'a> {
     pub(super) edits: &'a [Edit],
 }
 
-/// Returns the edit of the texts of a project by which it has exactly these edits of a model; `None` where it has them already.
+/// Returns the edit of the texts of a project by which it has exactly these edits of a model; `None` where it has them already. `has_file`
+/// is whether there is a file of this name in the folder of the project.
 ///
 /// # Errors
 ///
 /// The reason why the project cannot have them.
-pub(super) fn kept_in(texts: &TextFiles, model: &EditedModel<'_>) -> Result<Option<EditScript>, String> {
-    let main = texts.list().first().ok_or("the scene has no text")?;
-    let wrong = |errors: Vec<_>| {
-        let first: Option<&dragonfly_anim::stage::script::ScriptError> = errors.first();
-        first.map_or_else(String::new, |error| error.in_file(&main.name))
-    };
-    let project = StageProject::read(main.text.clone()).map_err(wrong)?;
+pub(super) fn kept_in(
+    texts: &TextFiles,
+    model: &EditedModel<'_>,
+    has_file: impl Fn(&str) -> bool,
+) -> Result<Option<EditScript>, String> {
+    let (main, project) = project_of(texts)?;
     let lines = written(model.edits)?;
     let own = project.edits_of(model.name).map(str::to_owned);
     if lines.is_empty() && own.as_deref().is_none_or(|name| texts.called(name).is_none()) {
         return Ok(None);
     }
     let (id, mut text) = with_model(&project, model).ok_or("the text has no place for the model")?;
-    let file = own.clone().unwrap_or_else(|| new_name(texts, &main.name, &id));
+    let is_used = |name: &str| texts.called(name).is_some() || has_file(name);
+    let file = own.clone().unwrap_or_else(|| new_name(&main.name, &id, is_used));
     text = with_edits(&text, &id, &file, model.hash).ok_or("the text has no place for the edits")?;
     let mut parts = Vec::new();
     let text_ref = || Some(TextRef::Name(file.clone()));
@@ -58,6 +60,32 @@ pub(super) fn kept_in(texts: &TextFiles, model: &EditedModel<'_>) -> Result<Opti
     let mut parts = parts.into_iter();
     let Some(first) = parts.next() else { return Ok(None) };
     Ok(Some(EditScript { also: parts.collect(), ..first }))
+}
+
+/// Returns the edit of the texts of a project by which its edits of a model count as made for a file with this hash; `None` where they
+/// do already.
+///
+/// # Errors
+///
+/// The reason why the project cannot state it.
+pub(super) fn made_for(texts: &TextFiles, name: &str, hash: u64) -> Result<Option<EditScript>, String> {
+    let (main, project) = project_of(texts)?;
+    let missing = || format!("the project has no edits of {name}");
+    let (id, file) = project.model_id(name).zip(project.edits_of(name)).ok_or_else(missing)?;
+    let text = with_edits(&main.text, id, file, Some(hash)).ok_or("the text has no place for the hash")?;
+    Ok(EditScript::between(&main.text, &text, Some(LABEL)))
+}
+
+/// Returns the main text and its project.
+///
+/// # Errors
+///
+/// The first error of the text.
+fn project_of(texts: &TextFiles) -> Result<(&TextFile, StageProject), String> {
+    let main = texts.list().first().ok_or("the scene has no text")?;
+    let wrong =
+        |errors: Vec<ScriptError>| errors.first().map_or_else(String::new, |error| error.in_file(&main.name));
+    Ok((main, StageProject::read(main.text.clone()).map_err(wrong)?))
 }
 
 /// Returns edits as a text, one a line.
@@ -129,10 +157,11 @@ fn new_id(file: &str, is_used: impl Fn(&str) -> bool) -> String {
     std::iter::once(id.clone()).chain(numbered).find(|id| !is_used(id)).unwrap_or(id)
 }
 
-/// Returns the name of a new file of edits: `duel.edits/anna.jsonl`.
-fn new_name(texts: &TextFiles, main: &str, id: &str) -> String {
+/// Returns the name of a new file of edits: `duel.edits/anna.jsonl`. A file that is there, although the project does not name it, may
+/// be needed by an older version of the project.
+fn new_name(main: &str, id: &str, is_used: impl Fn(&str) -> bool) -> String {
     let stem = main.rsplit_once('.').map_or(main, |(stem, _)| stem);
     let numbered = (2..).map(|number| format!("{stem}.edits/{id}-{number}.jsonl"));
     let mut names = std::iter::once(format!("{stem}.edits/{id}.jsonl")).chain(numbered);
-    names.find(|name| texts.called(name).is_none()).unwrap_or_default()
+    names.find(|name| !is_used(name)).unwrap_or_default()
 }

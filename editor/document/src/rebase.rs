@@ -139,27 +139,47 @@ impl Rebase {
     /// Applies an edit of texts to the new version; the old one is `after` it. Parts that do not fit are left out.
     fn apply_to_text(&mut self, number: usize, edit: &EditScript, after: ModelAdapter) {
         let (mut fitting, mut reasons) = (Vec::new(), Vec::new());
-        let mut old = self.old.texts().clone();
+        let mut merged = self.texts.clone();
+        let (mut old, mut new) = (self.old.texts().clone(), self.new.adapter().texts().clone());
+        // Each part is relative to the texts after the one before it.
         for part in edit.parts() {
             let before = old.clone();
             part.apply_to(&mut old);
-            // Parts of one edit are parts of different texts, so each is relative to the new texts as they are.
-            match self.texts.mapped(&part, &before, &old, self.new.adapter().texts()) {
-                Ok(mapped) => fitting.extend(mapped),
+            match merged.mapped(&part, &before, &old, &new) {
+                Ok(mapped) => {
+                    if let Some(mapped) = &mapped {
+                        mapped.apply_to(&mut new);
+                    }
+                    fitting.extend(mapped);
+                }
                 Err(reason) => reasons.push(reason),
             }
         }
         let mut fitting = fitting.into_iter();
         let mapped = fitting.next().map(|first| EditScript { also: fitting.collect(), ..first });
-        let applied = mapped.is_some();
+        let mut applied = mapped.is_some();
         if let Some(Err(reason)) = mapped.map(|mapped| self.new.ask(mapped.into(), None)) {
+            applied = false;
             reasons.push(Misfit::Refused(reason));
+            merged = self.without(edit);
         }
+        self.texts = merged;
         if !reasons.is_empty() {
             let edit = described(&self.old, &edit.clone().into());
             self.unfit.push(UnfitEdit { number, edit, applied_in_part: applied, reasons });
         }
         self.old = after;
+    }
+
+    /// Returns the merge of the texts after an edit that only the old version gets.
+    fn without(&self, edit: &EditScript) -> MergedTexts {
+        let (mut merged, mut old) = (self.texts.clone(), self.old.texts().clone());
+        for part in edit.parts() {
+            let before = old.clone();
+            part.apply_to(&mut old);
+            merged.lost(&part, &before, &old, self.new.adapter().texts());
+        }
+        merged
     }
 
     /// Ends it.

@@ -22,10 +22,13 @@ impl Document {
         }
     }
 
-    /// Replaces the open document by a new version of its file, with the unsaved edits. The new journal has all of them before the
-    /// old one goes to the trash folder.
-    pub(super) fn rebase(&mut self, opened: OpenedModel) {
-        let Some(mut old) = self.open.take() else { return };
+    /// Replaces the open document by a new version of its file, `source`, with the unsaved edits. The new journal has all of them before
+    /// the old one goes to the trash folder. If another file is open by now, it stays.
+    pub(super) fn rebase(&mut self, opened: OpenedModel, source: &Source) {
+        let is_open = |open: &mut Open| open.file.path.as_deref() == source.path();
+        let Some(mut old) = self.open.take_if(is_open) else {
+            return self.reply(DocumentReply::Cancelled);
+        };
         (self.waiting, self.noticed) = (None, None);
         let Rebased { edited, unfit } = rebased(&old.edited, opened.adapter());
         let mut open = Open::new(opened, self.autosave.clone());

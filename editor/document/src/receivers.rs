@@ -5,9 +5,8 @@
 
 use super::Change;
 use super::job::JobNews;
-use super::message::{DocumentMessage, DocumentReply};
+use super::message::DocumentMessage;
 use super::owner::Document;
-use super::saving::Then;
 use dragonfly_runtime::{Context, Receiver, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -31,24 +30,17 @@ impl Document {
     /// Handles a message about files.
     pub(super) fn message(&mut self, message: DocumentMessage, now: Instant) {
         match message {
-            DocumentMessage::Open { source, anyway } => self.open_or_ask(source, anyway),
+            DocumentMessage::Open { source, anyway } => self.open_or_ask(source, anyway, now),
             DocumentMessage::CancelLoading => self.cancel(),
             DocumentMessage::Save(order) => self.save(order, now),
             DocumentMessage::Plan(order) => self.plan(order),
             DocumentMessage::Reload => self.reload(),
             DocumentMessage::Revert => self.revert(now),
-            DocumentMessage::Quit => {
-                let unsaved = self.has_unsaved_work();
-                let reply = if unsaved { DocumentReply::Unsaved(Then::Quit) } else { DocumentReply::MayQuit };
-                self.reply(reply);
-            }
-            DocumentMessage::DoNotSave => {
-                if let Some(open) = &mut self.open {
-                    open.unwanted = true;
-                }
-            }
+            DocumentMessage::Quit => self.quit(now),
+            DocumentMessage::DoNotSave => self.do_not_save(),
             DocumentMessage::EditModel(name) => self.edit_model(&name),
             DocumentMessage::ShowScene => self.show_scene(now),
+            DocumentMessage::DecideOutdated(edits, choice) => self.decide_outdated(&edits, choice, now),
             DocumentMessage::ShowScript(name) => self.show_script(&name),
             DocumentMessage::LookAtFile => self.look_at_file(),
             DocumentMessage::Search => {

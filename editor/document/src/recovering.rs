@@ -67,7 +67,7 @@ impl Document {
     }
 
     /// Starts another journal, in addition to the existing one.
-    fn begin_beside(&mut self) {
+    pub(super) fn begin_beside(&mut self) {
         let (Some(open), Some(autosave)) = (&mut self.open, &self.autosave) else { return };
         let stamp = open.stamp();
         match autosave.begin_another(open.file.path.as_deref(), stamp.as_ref()) {

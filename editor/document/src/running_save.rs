@@ -4,7 +4,7 @@ use super::job::JobNews;
 use super::message::{DocumentMessage, DocumentReply};
 use super::owner::Document;
 use super::save_job::{PreparedSave, SaveInput, WrittenSave, prepare};
-use super::saving::{NotSaved, SaveOrder, SavedFile};
+use super::saving::{FailedSave, NotSaved, SaveOrder, SavedFile};
 use super::{Change, LoadError, OpenedModel};
 use dragonfly_runtime::{Address, Job};
 use std::time::Instant;
@@ -23,7 +23,7 @@ pub(super) struct RunningSave {
 /// The end of a step of a save.
 enum SaveStage {
     Prepared(Result<Box<PreparedSave>, NotSaved>),
-    Written(Result<Box<WrittenSave>, NotSaved>),
+    Written(Result<Box<WrittenSave>, FailedSave>),
 }
 
 /// A message that waits for the end of a save.
@@ -61,6 +61,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         DocumentMessage::Open { .. }
         | DocumentMessage::EditModel(_)
         | DocumentMessage::ShowScene
+        | DocumentMessage::DecideOutdated(..)
         | DocumentMessage::Reload
         | DocumentMessage::Revert
         | DocumentMessage::Quit
@@ -117,8 +118,8 @@ impl RunningSave {
         order: SaveOrder,
         prepared: Box<PreparedSave>,
     ) -> Result<Self, (SaveOrder, NotSaved)> {
-        let work = move || SaveStage::Written(prepared.write().map(Box::new).map_err(NotSaved::from));
-        Self::start(document, ticket, order, |reason| SaveStage::Written(Err(reason)), work)
+        let work = move || SaveStage::Written(prepared.write().map(Box::new).map_err(FailedSave::from));
+        Self::start(document, ticket, order, |reason| SaveStage::Written(Err(reason.into())), work)
     }
 }
 
@@ -146,7 +147,7 @@ impl Document {
         let Some(open) = &mut self.open else { return };
         let large = open.stamp().is_some_and(|stamp| stamp.size >= LARGE);
         let title = open.file.title.clone();
-        match open.begin_save(&order, autosave.as_ref(), faults, now) {
+        match open.begin_save(&order, self.scene.as_ref(), autosave.as_ref(), faults, now) {
             Ok(input) => {
                 if large {
                     self.reply(DocumentReply::Notice(format!("Saving {title}…")));
@@ -166,7 +167,7 @@ impl Document {
     fn go_on_saving(&mut self, step: Result<RunningSave, (SaveOrder, NotSaved)>, now: Instant) {
         match step {
             Ok(running) => self.save = Some(running),
-            Err((order, reason)) => self.end_save(order, Err(reason), now),
+            Err((order, reason)) => self.end_save(order, Err(reason.into()), now),
         }
     }
 
@@ -181,7 +182,7 @@ impl Document {
                 let begun = RunningSave::write(&self.own, ticket, save.order, prepared);
                 self.go_on_saving(begun, now);
             }
-            Ok(SaveStage::Prepared(Err(reason))) => self.end_save(save.order, Err(reason), now),
+            Ok(SaveStage::Prepared(Err(reason))) => self.end_save(save.order, Err(reason.into()), now),
             Ok(SaveStage::Written(written)) => self.end_save(save.order, written, now),
             // Its sender is in the job, which sends before it ends.
             Err(flume::RecvError::Disconnected) => {}
@@ -197,16 +198,16 @@ impl Document {
                 // The document was lost, and with it the journal.
                 let Some(open) = &mut self.open else { return };
                 open.record_saving(&mut prepared, now);
-                prepared.write().map(Box::new).map_err(NotSaved::from)
+                prepared.write().map(Box::new).map_err(FailedSave::from)
             }
-            Ok(SaveStage::Prepared(Err(reason))) => Err(reason),
+            Ok(SaveStage::Prepared(Err(reason))) => Err(reason.into()),
             Ok(SaveStage::Written(written)) => written,
             Err(flume::RecvError::Disconnected) => return,
         };
         self.reply_saved(save.order, written, now);
     }
 
-    fn end_save(&mut self, order: SaveOrder, written: Result<Box<WrittenSave>, NotSaved>, now: Instant) {
+    fn end_save(&mut self, order: SaveOrder, written: Result<Box<WrittenSave>, FailedSave>, now: Instant) {
         self.reply_saved(order, written, now);
         self.report_trouble();
         self.changed();
@@ -221,15 +222,19 @@ impl Document {
         }
     }
 
-    fn reply_saved(&mut self, order: SaveOrder, written: Result<Box<WrittenSave>, NotSaved>, now: Instant) {
+    fn reply_saved(&mut self, order: SaveOrder, written: Result<Box<WrittenSave>, FailedSave>, now: Instant) {
         let autosave = self.autosave.clone();
         let Some(open) = &mut self.open else { return };
-        match open.end_save(written.map(|written| *written), autosave.as_ref(), now) {
-            Ok(saved) => {
+        match written {
+            Ok(written) => {
+                let saved = open.end_save(*written, autosave.as_ref(), now);
                 self.noticed = None;
                 self.reply(DocumentReply::Saved(SavedFile { then: order.then, ..saved }));
             }
-            Err(reason) => self.reply(DocumentReply::NotSaved(order, reason)),
+            Err(FailedSave { reason, partly }) => {
+                open.save_failed(partly);
+                self.reply(DocumentReply::NotSaved(order, reason));
+            }
         }
     }
 }

@@ -12,7 +12,7 @@ use super::recorded::{EditsOrigin, Snapshot};
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use dragonfly_anim::data::Take;
 use dragonfly_anim::format::ChangeReport;
-use dragonfly_store::{Autosave, Journal, JournalError, Successor, SuccessorJournal};
+use dragonfly_store::{Autosave, FileContents, Journal, JournalError, Successor, SuccessorJournal};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -37,6 +37,8 @@ pub(super) struct SaveInput {
     pub(super) about: EditsOrigin,
     pub(super) output: PathBuf,
     pub(super) overwrite: Overwrite,
+    /// Files that are replaced whatever they contain.
+    pub(super) replaces: Vec<PathBuf>,
     pub(super) target: SaveTarget,
     pub(super) autosave: Option<Autosave>,
     /// The successor of the document's journal.
@@ -51,8 +53,17 @@ pub(super) struct PreparedSave {
     /// All files, the model last.
     files: Vec<WrittenFile>,
     changes: Option<ChangeReport>,
-    size_and_hash: (u64, u64),
+    /// Contents of the main file; `None` where it stays as it is.
+    main: Option<FileContents>,
     journal: Option<Result<SuccessorJournal, JournalError>>,
+}
+
+/// A save that failed while its files were written.
+#[derive(Debug)]
+pub(super) struct FailedWrite {
+    pub(super) reason: SaveFailure,
+    /// The file of the document with the files that were written before; `None` where they are files of a copy.
+    pub(super) partly: Option<Box<Editable>>,
 }
 
 /// A save that has succeeded.
@@ -76,11 +87,9 @@ pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, String> {
     let plan = input.editable.plan(input.edited.adapter()).map_err(|error| error.to_string())?;
     let files = input.editable.files(&plan, &input.output)?;
     let bytes = files.last().map_or(&[][..], |(_, bytes)| bytes);
-    // If the main file stays as it is, it is no evidence that the others were written: no file has this size.
-    let size_and_hash = match input.editable.has_unchanged_main(&input.output, bytes) {
-        true => (u64::MAX, 0),
-        false => (bytes.len() as u64, dragonfly_store::hash(bytes)),
-    };
+    let is_main_written = !input.editable.keeps_main(&input.output, bytes, input.overwrite);
+    let main = FileContents { size: bytes.len() as u64, hash: dragonfly_store::hash(bytes) };
+    let main = Some(main).filter(|_| is_main_written);
     let journal = match input.successor.take() {
         Some(successor) => {
             let snapshot = input.snapshot()?;
@@ -88,7 +97,7 @@ pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, String> {
         }
         None => None,
     };
-    Ok(PreparedSave { input, files, changes: plan.changes, size_and_hash, journal })
+    Ok(PreparedSave { input, files, changes: plan.changes, main, journal })
 }
 
 impl SaveInput {
@@ -123,9 +132,9 @@ impl PreparedSave {
         self.changes.as_ref()
     }
 
-    /// Returns size and hash of the model's file.
-    pub(super) fn size_and_hash(&self) -> (u64, u64) {
-        self.size_and_hash
+    /// Returns the contents that the main file gets; `None` where it stays as it is.
+    pub(super) fn main_file(&self) -> Option<FileContents> {
+        self.main
     }
 
     /// Takes the successor of the journal.
@@ -136,15 +145,21 @@ impl PreparedSave {
     /// Writes the files.
     ///
     /// # Errors
-    /// The reason why nothing was saved.
-    pub(super) fn write(self) -> Result<WrittenSave, SaveFailure> {
+    /// The reason why it was not saved, and what was written before.
+    pub(super) fn write(self) -> Result<WrittenSave, FailedWrite> {
         let Self { mut input, files, .. } = self;
         input.faults.reach(FaultPoint::WriteSave);
         let target = input.target;
         let versions = input.autosave.as_ref().map(Autosave::versions);
         let becomes = target != SaveTarget::Copy;
-        let how = Writing { overwrite: input.overwrite, versions, becomes };
-        let saved = input.editable.write(input.edited.adapter(), files, how)?;
+        let how = Writing { overwrite: input.overwrite, replaces: &input.replaces, versions, becomes };
+        let saved = match input.editable.write(input.edited.adapter(), files, how) {
+            Ok(saved) => saved,
+            Err(reason) => {
+                let partly = (target == SaveTarget::Own).then(|| Box::new(input.editable));
+                return Err(FailedWrite { reason, partly });
+            }
+        };
         let journal = if target == SaveTarget::Other { input.begin_journal() } else { None };
         Ok(WrittenSave { editable: input.editable, saved, path: input.output, target, journal })
     }

@@ -3,9 +3,10 @@
 use super::fault::FaultInjection;
 use super::open::Open;
 use super::recorded::EditsOrigin;
-use super::save_job::{PreparedSave, SaveInput, SaveTarget, WrittenSave};
+use super::save_job::{FailedWrite, PreparedSave, SaveInput, SaveTarget, WrittenSave};
+use super::waiting_scene::WaitingScene;
 use super::writing::{Overwrite, SaveFailure};
-use super::{FileView, Source, formats};
+use super::{Editable, FileView, Source, formats};
 use dragonfly_store::{Autosave, FileState, Journal, JournalError, RealFiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -40,6 +41,8 @@ pub struct SaveOrder {
     pub anyway: bool,
     /// Writes the whole file anew where the format needs it, see [`Format::is_rewritten`](dragonfly_anim::format::Format::is_rewritten): the user has decided.
     pub rewrite: bool,
+    /// Files that exist where the document has new ones of these names, and that are replaced: the user has decided.
+    pub replaces: Vec<PathBuf>,
     /// The action that follows.
     pub then: Option<Then>,
 }
@@ -47,7 +50,7 @@ pub struct SaveOrder {
 impl SaveOrder {
     /// Saves to the file of the document.
     pub fn own(then: Option<Then>) -> Self {
-        Self { to: SaveTo::Own, anyway: false, rewrite: false, then }
+        Self { to: SaveTo::Own, anyway: false, rewrite: false, replaces: Vec::new(), then }
     }
 }
 
@@ -83,6 +86,26 @@ pub enum NotSaved {
     Failed(String),
 }
 
+/// A save that failed.
+#[derive(Debug)]
+pub(super) struct FailedSave {
+    pub(super) reason: NotSaved,
+    /// The file of the document, where some of its files were written before.
+    pub(super) partly: Option<Box<Editable>>,
+}
+
+impl From<NotSaved> for FailedSave {
+    fn from(reason: NotSaved) -> Self {
+        Self { reason, partly: None }
+    }
+}
+
+impl From<FailedWrite> for FailedSave {
+    fn from(FailedWrite { reason, partly }: FailedWrite) -> Self {
+        Self { reason: reason.into(), partly }
+    }
+}
+
 impl From<SaveFailure> for NotSaved {
     fn from(failure: SaveFailure) -> Self {
         match failure {
@@ -104,10 +127,12 @@ impl Open {
         format!("{} cannot be saved: {reason}", self.file.title)
     }
 
-    /// Begins a save of the present state, which [`prepare`](super::save_job::prepare) continues.
+    /// Begins a save of the present state, which [`prepare`](super::save_job::prepare) continues. `of_scene` is the scene that waits while
+    /// this model of it is edited: it plays the file, so that the model keeps it.
     pub(super) fn begin_save(
         &mut self,
         order: &SaveOrder,
+        of_scene: Option<&WaitingScene>,
         autosave: Option<&Autosave>,
         faults: FaultInjection,
         now: Instant,
@@ -136,6 +161,14 @@ impl Open {
             (true, false) => SaveTarget::Own,
             (false, false) => SaveTarget::Other,
         };
+        if let (SaveTarget::Other, Some(scene)) = (target, of_scene)
+            && self.file.path.as_deref() == Some(&*scene.model.path)
+        {
+            return Err(NotSaved::Failed(format!(
+                "{} is edited for {}, which plays this file; save a copy instead",
+                self.file.title, scene.open.file.title
+            )));
+        }
         let overwrite = match &order.to {
             SaveTo::Own if order.anyway => Overwrite::Anything,
             SaveTo::Own => Overwrite::AsRead,
@@ -145,7 +178,10 @@ impl Open {
             _ if order.anyway => Overwrite::Anything,
             _ => Overwrite::Nothing,
         };
-        self.begin_saving(output, target, overwrite, autosave, faults, now).map_err(NotSaved::Failed)
+        let mut input =
+            self.begin_saving(output, target, overwrite, autosave, faults, now).map_err(NotSaved::Failed)?;
+        input.replaces.clone_from(&order.replaces);
+        Ok(input)
     }
 
     /// Begins a save of the present state as `output`. Old versions of the file are kept in `autosave`.
@@ -176,6 +212,7 @@ impl Open {
             about: self.about.clone(),
             output,
             overwrite,
+            replaces: Vec::new(),
             target,
             autosave: autosave.cloned(),
             // The file will no longer have the takes with which the history starts.
@@ -188,28 +225,31 @@ impl Open {
     pub(super) fn record_saving(&mut self, prepared: &mut PreparedSave, now: Instant) {
         if prepared.target() == SaveTarget::Own {
             let new = prepared.take_journal();
-            self.journal_writer.record_saving(new, prepared.size_and_hash(), now);
+            self.journal_writer.record_saving(new, prepared.main_file(), now);
+        }
+    }
+
+    /// Ends a save that failed. `partly` is the file of the document, where some of its files were written before.
+    pub(super) fn save_failed(&mut self, partly: Option<Box<Editable>>) {
+        self.edited.end_save(false);
+        self.journal_writer.end_save(None);
+        if let Some(editable) = partly {
+            self.editable = Ok(*editable);
         }
     }
 
     /// Ends a save: what was written is the file of the document, unless it is a copy.
-    pub(super) fn end_save<E>(
+    pub(super) fn end_save(
         &mut self,
-        written: Result<WrittenSave, E>,
+        written: WrittenSave,
         autosave: Option<&Autosave>,
         now: Instant,
-    ) -> Result<SavedFile, E> {
-        let copy = written.as_ref().is_ok_and(|written| written.target == SaveTarget::Copy);
+    ) -> SavedFile {
+        let WrittenSave { editable, saved, path, target, journal } = written;
+        let copy = target == SaveTarget::Copy;
         if !copy {
-            self.edited.end_save(written.is_ok());
+            self.edited.end_save(true);
         }
-        let WrittenSave { editable, saved, path, target, journal } = match written {
-            Ok(written) => written,
-            Err(reason) => {
-                self.journal_writer.end_save(None);
-                return Err(reason);
-            }
-        };
         if !copy {
             let stamp = editable.stamp().copied();
             self.base = Some(self.base());
@@ -224,7 +264,7 @@ impl Open {
             self.look();
         }
         let beside = saved.files.len().saturating_sub(1);
-        Ok(SavedFile { path, bytes: saved.bytes, beside, copy, notices: saved.notices, then: None })
+        SavedFile { path, bytes: saved.bytes, beside, copy, notices: saved.notices, then: None }
     }
 
     /// Makes `path` the file of the document, and `journal` its journal.
@@ -236,7 +276,11 @@ impl Open {
         now: Instant,
     ) {
         let title = super::source::file_name(path);
-        self.file = Arc::new(FileView { title, path: Some(path.to_path_buf()) });
+        if let Some(scene) = &mut self.scene {
+            scene.move_to(path);
+        }
+        let ending = self.editable.as_ref().map_or_else(|_| String::new(), Editable::ending);
+        self.file = Arc::new(FileView { title, path: Some(path.to_path_buf()), ending });
         self.about = EditsOrigin::new(None, self.about.conventions());
         let (Some(autosave), Some(journal)) = (autosave, journal) else {
             return self.journal_writer.end_save(None);

@@ -1,46 +1,20 @@
-//! The models of a scene, which are read in jobs: each once, and again when its file or its unsaved edits change.
+//! The models of a scene, which are read in jobs: each once, and again when its file or the edits that the project keeps change.
 
-use super::adapter::ModelAdapter;
-use super::edit::parse_lines;
+use super::Folder;
 use super::job::JobNews;
-use super::load::load_inside;
+use super::scene_model_source::{ReadFileState, ReadSceneModel, SceneModelSource};
 use super::scene_view::SceneModel;
 use super::source::LoadError;
-use super::{Folder, LoadedModel};
-use dragonfly_anim::data::{AnimationData, ModelData};
-use dragonfly_anim::stage::{StageAssets, StageModel};
-use dragonfly_runtime::{Address, CancelFlag, Job};
+use dragonfly_anim::stage::StageAssets;
+use dragonfly_runtime::{Address, Job};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Largest number of models that are read at once: each is as large as its file.
 const MOST_JOBS: usize = 4;
 
-/// Number of edits that do not fit a model of which the message names each.
-const NAMED: usize = 3;
-
 /// Distinguishes a job from others for a model of the same name.
 type JobMark = Arc<()>;
-
-/// The origin of a model of a scene.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct SceneModelSource {
-    /// The file, relative to the folder of the scene.
-    pub(super) file: String,
-    /// The edits that are not saved into it, one a line.
-    pub(super) edits: Option<Arc<str>>,
-}
-
-/// A model of a scene that was read.
-#[derive(Clone, Debug)]
-pub(super) struct ReadSceneModel {
-    loaded: Arc<LoadedModel>,
-    stage: Arc<StageModel>,
-    /// Hash of its file.
-    hash: u64,
-    /// A sentence for the user about edits that do not fit it.
-    unfit: Option<String>,
-}
 
 /// The outcome of reading a model of a scene.
 #[derive(Debug)]
@@ -66,8 +40,8 @@ pub(super) struct SceneModels {
     tried: BTreeMap<String, SceneModelSource>,
     jobs: BTreeMap<String, ReadingModel>,
     models: Arc<BTreeMap<String, SceneModel>>,
-    hashes: BTreeMap<String, u64>,
-    unfit: BTreeMap<String, String>,
+    /// The files of the models that are shown.
+    files: BTreeMap<String, ReadFileState>,
 }
 
 impl SceneModels {
@@ -79,8 +53,7 @@ impl SceneModels {
             tried: BTreeMap::new(),
             jobs: BTreeMap::new(),
             models: Arc::default(),
-            hashes: BTreeMap::new(),
-            unfit: BTreeMap::new(),
+            files: BTreeMap::new(),
         }
     }
 
@@ -94,14 +67,16 @@ impl SceneModels {
         &self.models
     }
 
-    /// Returns the hash of the file of a model that was read.
-    pub(super) fn hash(&self, name: &str) -> Option<u64> {
-        self.hashes.get(name).copied()
+    /// Returns the state of the file of a model that was read, whatever the name by which the script means it.
+    pub(super) fn file(&self, source: &SceneModelSource) -> Option<&ReadFileState> {
+        let (name, _) = self.tried.iter().find(|(_, own)| *own == source)?;
+        self.files.get(name)
     }
 
-    /// Returns a sentence for the user about edits of a model that do not fit it.
-    pub(super) fn unfit(&self, name: &str) -> Option<&str> {
-        self.unfit.get(name).map(String::as_str)
+    /// Reads all models again, from another folder.
+    pub(super) fn move_to(&mut self, folder: Result<Folder, String>) {
+        self.folder = folder;
+        (self.tried, self.jobs) = (BTreeMap::new(), BTreeMap::new());
     }
 
     /// Starts to read the models that are named now and were not read from there, and stops to read others.
@@ -171,15 +146,12 @@ impl SceneModels {
         let model = match outcome {
             Ok(read) => {
                 assets.add_model(name.as_str(), read.stage);
-                self.hashes.insert(name.clone(), read.hash);
-                match read.unfit {
-                    Some(unfit) => self.unfit.insert(name.clone(), unfit),
-                    None => self.unfit.remove(&name),
-                };
-                SceneModel::Loaded(read.loaded)
+                self.files.insert(name.clone(), read.state);
+                SceneModel::Loaded(Arc::new(read.loaded))
             }
             Err(error) => {
                 assets.remove_model(&name);
+                self.files.remove(&name);
                 SceneModel::Missing(error.to_string())
             }
         };
@@ -187,20 +159,22 @@ impl SceneModels {
         true
     }
 
-    /// Forgets that a model was read: its file changed.
-    pub(super) fn forget(&mut self, name: &str) {
-        self.tried.remove(name);
+    /// Forgets that the models of a file were read: it changed.
+    pub(super) fn forget(&mut self, file: &str) {
+        self.tried.retain(|_, source| source.file != file);
     }
 
-    /// Tries again to read the models that are missing: they may be there now. Returns whether there are any.
+    /// Tries again to read the models that are missing, because they may be there now, and those whose files another program changed.
+    /// Returns whether there are any.
     pub(super) fn look_again(&mut self) -> bool {
-        let missing = |(name, model): (&String, &SceneModel)| match model {
-            SceneModel::Missing(_) => Some(name.clone()),
-            SceneModel::Loading | SceneModel::Loaded(_) => None,
-        };
-        let names: Vec<String> = self.models.iter().filter_map(missing).collect();
-        names.iter().for_each(|name| self.forget(name));
-        !names.is_empty()
+        let before = self.tried.len();
+        let (models, files) = (&self.models, &self.files);
+        self.tried.retain(|name, _| match models.get(name) {
+            Some(SceneModel::Missing(_)) => false,
+            Some(SceneModel::Loaded(_)) => files.get(name).is_none_or(|file| file.stamps.changed().is_none()),
+            Some(SceneModel::Loading) | None => true,
+        });
+        self.tried.len() < before
     }
 }
 
@@ -217,7 +191,7 @@ fn start_reading(
         document,
         "scene model",
         move |job| {
-            let outcome = read(&folder, &source, job.cancel_flag());
+            let outcome = source.read(&folder, job.cancel_flag());
             JobNews::SceneModel(Box::new(SceneModelNews { mark, name, outcome }))
         },
         move |panic| {
@@ -226,57 +200,4 @@ fn start_reading(
             JobNews::SceneModel(Box::new(SceneModelNews { mark: other, name: title, outcome }))
         },
     )
-}
-
-/// Reads a model and applies its edits.
-fn read(
-    folder: &Folder,
-    source: &SceneModelSource,
-    cancel: &CancelFlag,
-) -> Result<ReadSceneModel, LoadError> {
-    let (mut loaded, hash) = load_inside(folder, &source.file, cancel)?;
-    let mut unfit = None;
-    if let Some(edits) = &source.edits {
-        (loaded.model, unfit) = with_edits(&loaded.model, &source.file, edits);
-    }
-    let stage = Arc::new(StageModel::new(Arc::clone(&loaded.model)));
-    Ok(ReadSceneModel { loaded: Arc::new(loaded), stage, hash, unfit })
-}
-
-/// Returns a model with edits, one a line, and a sentence about those that do not fit; `file` is its name.
-pub(super) fn with_edits(
-    model: &Arc<ModelData>,
-    file: &str,
-    edits: &str,
-) -> (Arc<ModelData>, Option<String>) {
-    if edits.trim().is_empty() {
-        return (Arc::clone(model), None);
-    }
-    let mut adapter = ModelAdapter::of(model);
-    let mut reasons = Vec::new();
-    match parse_lines(edits) {
-        Ok(edits) => {
-            for (line, edit) in edits {
-                if let Err(error) = adapter.allows(&edit).and_then(|()| adapter.apply(&edit)) {
-                    reasons.push(format!("line {line}: {error}"));
-                }
-            }
-        }
-        Err(error) => reasons.push(error.to_string()),
-    }
-    let animation = AnimationData { skeleton: Arc::clone(adapter.skeleton()), takes: adapter.saved_takes() };
-    let skeleton = Arc::clone(adapter.skeleton());
-    let shift = dragonfly_anim::root_bone::BoneShift::between(&model.animation.skeleton, &skeleton);
-    let shifted = shift.and_then(|shift| shift.model(model, &skeleton));
-    let base = shifted.unwrap_or_else(|| ModelData::clone(model));
-    (Arc::new(ModelData { animation, ..base }), unfit_text(file, &reasons))
-}
-
-fn unfit_text(file: &str, reasons: &[String]) -> Option<String> {
-    let named = reasons.iter().take(NAMED).cloned().collect::<Vec<_>>().join("; ");
-    match reasons.len().saturating_sub(NAMED) {
-        _ if reasons.is_empty() => None,
-        0 => Some(format!("edits of {file} do not fit it: {named}")),
-        more => Some(format!("edits of {file} do not fit it: {named}; and {more} more")),
-    }
 }

@@ -1,16 +1,15 @@
 //! Scripts of scenes from files, with the models that they name.
 
 use super::adapter::TextFiles;
-use super::load::load_inside;
 use super::scene_lines::SceneLines;
-use super::scene_models::with_edits;
+use super::scene_model_source::SceneModelSource;
 use super::scene_view::{SceneModel, SceneView};
 use super::source::LoadError;
 use super::text_source::{is_project, read_texts};
-use super::{Cancel, Folder, LoadedModel};
+use super::{Cancel, Folder};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptError, StageScript};
-use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
+use dragonfly_anim::stage::{StageAssets, StagePlan};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -25,7 +24,7 @@ pub struct LoadedScene {
     pub script: StageScript,
     /// Its plan, with the models.
     pub plan: StagePlan,
-    /// Edits of models that the project keeps and that do not fit them, a sentence for each model.
+    /// Edits of models that the project keeps and that were not applied to them, a sentence for each model.
     pub warnings: Vec<String>,
     models: Arc<BTreeMap<String, SceneModel>>,
 }
@@ -135,23 +134,17 @@ fn load_assets(
         if found.assets.model(&source.value).is_some() {
             continue;
         }
-        let file = project.map_or(&*source.value, |project| project.source_of(&source.value));
-        match load_inside(folder, file, cancel) {
-            Ok((loaded, _)) => {
-                let edits = project.and_then(|project| project.edits_of(&source.value));
-                let (model, reason) = match edits.and_then(|name| texts.called(name)) {
-                    Some(edits) => with_edits(&loaded.model, file, &edits.text),
-                    None => (Arc::clone(&loaded.model), None),
-                };
-                found.warnings.extend(reason);
-                found.assets.add_model(&*source.value, Arc::new(StageModel::new(Arc::clone(&model))));
-                let loaded = SceneModel::Loaded(Arc::new(LoadedModel { model, ..loaded }));
-                found.models.insert(source.value.to_string(), loaded);
+        let origin = SceneModelSource::of(&source.value, project, texts);
+        match origin.read(folder, cancel) {
+            Ok(read) => {
+                found.warnings.extend(read.state.unfit);
+                found.assets.add_model(&*source.value, read.stage);
+                found.models.insert(source.value.to_string(), SceneModel::Loaded(Arc::new(read.loaded)));
             }
             Err(LoadError::Cancelled) => return Err(SceneLoadError::Cancelled),
             Err(reason) => {
                 let message = match reason {
-                    LoadError::Format { reason, .. } => format!("{file}: {reason}"),
+                    LoadError::Format { reason, .. } => format!("{}: {reason}", origin.file),
                     other => other.to_string(),
                 };
                 errors.push(ScriptError::at(

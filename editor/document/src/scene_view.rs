@@ -2,10 +2,10 @@
 
 use super::LoadedModel;
 use super::adapter::TextFiles;
+use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptError, StageScript};
-use dragonfly_anim::stage::{PlannedThing, StagePlan};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -57,15 +57,5 @@ impl SceneView {
     /// Returns whether what plays is the newest text.
     pub fn is_current(&self) -> bool {
         self.errors.is_empty() && self.plan.is_some()
-    }
-
-    /// Returns the model of a thing of the plan; `None` for things without one, and while it is missing.
-    pub fn model_of(&self, thing: &PlannedThing) -> Option<&Arc<LoadedModel>> {
-        let script = self.script.as_ref()?;
-        let element = script.things().find(|element| element.value("id") == Some(&*thing.id))?;
-        match self.models.get(element.value("model")?)? {
-            SceneModel::Loaded(loaded) => Some(loaded),
-            SceneModel::Loading | SceneModel::Missing(_) => None,
-        }
     }
 }

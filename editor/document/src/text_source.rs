@@ -1,11 +1,12 @@
 //! Reads the texts of a document: the script of a scene, or a project with its scripts and its file of lines.
 
 use super::adapter::{TextFile, TextFiles};
-use super::beside::BesideStamps;
+use super::beside::{BesideStamps, ReadOnce};
 use super::source::{LoadError, file_name};
-use super::{FileAccessError, Folder, read_file};
+use super::{FileAccessError, read_file};
+use dragonfly_anim::format::AssetFs;
 use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::MOST_BYTES;
+use dragonfly_anim::stage::script::{MOST_BYTES, ScriptError};
 use dragonfly_store::{FileStamp, RealFiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -70,32 +71,24 @@ impl ReadTexts {
     /// Reads the scripts, the lines and the edits of models of a project.
     fn files_of(&mut self, project: &StageProject, files: &mut Vec<TextFile>) -> Result<(), LoadError> {
         let failed = |reason| LoadError::File { path: self.path.clone(), reason };
-        let folder = Folder::of(&self.path).map_err(failed)?;
+        let door = ReadOnce::of(&self.path).map_err(failed)?;
         let edits = project.elements_called("edits").filter_map(|edits| edits.value("src"));
         for name in project.scripts().chain(project.lines()).chain(edits) {
             if files.iter().any(|file| &*file.name == name) {
                 continue;
             }
-            let read = folder.path_of(name).map_err(|error| error.to_string());
-            let read = read.and_then(|path| {
-                let (text, stamp) = read_stamped(&path).map_err(|error| error.to_string())?;
-                Ok((path, text, stamp))
-            });
-            match read {
-                Ok((path, text, stamp)) => {
-                    if let Some(stamp) = stamp {
-                        self.beside.add(path, stamp);
-                    }
-                    files.push(TextFile { name: name.into(), text });
-                }
+            let read = door.read(name, MOST_BYTES as u64).map_err(|error| error.to_string());
+            match read.and_then(text_of) {
+                Ok(text) => files.push(TextFile { name: name.into(), text }),
                 Err(reason) => self.warnings.push(format!("{name}: {reason}")),
             }
         }
+        self.beside = door.stamps();
         Ok(())
     }
 }
 
-/// Reads a text, with the state of its file.
+/// Reads the main text, with the state of its file.
 fn read_stamped(path: &Path) -> Result<(Arc<str>, Option<FileStamp>), LoadError> {
     let failed = |reason: FileAccessError| LoadError::File { path: path.to_owned(), reason };
     let wrong = |reason: String| LoadError::Format { title: file_name(path), reason };
@@ -109,12 +102,15 @@ fn read_stamped(path: &Path) -> Result<(Arc<str>, Option<FileStamp>), LoadError>
         // A change that cannot be detected now will be noticed when the file is saved.
         Some(Err(_)) | None => None,
     };
+    Ok((text_of(bytes).map_err(wrong)?, stamp))
+}
+
+/// Returns the bytes as text; the place and the reason where they are none.
+fn text_of(bytes: Vec<u8>) -> Result<Arc<str>, String> {
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().map_or(0, |last| last.chars().count()) + 1;
-        wrong(format!("{line}:{column}: this is not UTF-8 text; save the file as UTF-8"))
+        let before = String::from_utf8_lossy(error.as_bytes());
+        ScriptError::at(&before, at..at, "this is not UTF-8 text", "save the file as UTF-8").to_string()
     })?;
-    Ok((text.into(), stamp))
+    Ok(text.into())
 }

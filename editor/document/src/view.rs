@@ -8,6 +8,7 @@ use super::shapes::ModelShapes;
 use super::step_amount::StepAmount;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Skeleton, Take, Track};
+use dragonfly_anim::format::gltf::GLB;
 use dragonfly_anim::format::{Conversion, Format};
 use dragonfly_anim::root_bone::BoneShift;
 use std::path::PathBuf;
@@ -68,7 +69,8 @@ pub struct HistoryView {
     pub done: usize,
     /// Whether nothing is unsaved.
     pub saved: bool,
-    /// Number of steps that were applied when it was opened or saved; `None` where neither undo nor redo leads there.
+    /// Number of steps that were applied when it was opened or saved, or that the project of a model keeps; `None` where neither undo nor
+    /// redo leads there.
     pub saved_at: Option<usize>,
 }
 
@@ -82,7 +84,7 @@ impl HistoryView {
         let last = done.checked_sub(1).and_then(|last| steps.get(last));
         let shows_difference = last.is_some_and(|step| step.edit.shows_difference());
         let brings_takes = last.is_some_and(|step| step.edit.brings_takes());
-        let (saved, saved_at) = (edited.is_saved(), edited.saved());
+        let (saved, saved_at) = (!edited.has_unsaved(), edited.settled());
         Self { steps: labels, about, amounts, shows_difference, brings_takes, done, saved, saved_at }
     }
 
@@ -111,6 +113,8 @@ pub struct FileView {
     pub title: String,
     /// Its path; `None` where it was never saved: the first save asks for it.
     pub path: Option<PathBuf>,
+    /// The extension that a copy of it has.
+    pub ending: String,
 }
 
 impl FileView {
@@ -151,6 +155,8 @@ pub struct View {
     pub file: Arc<FileView>,
     /// The scene, if a script is open; the model is then an empty one.
     pub scene: Option<Arc<SceneView>>,
+    /// Title of the scene that waits while this model of it is edited; `None` for a document that was opened itself.
+    pub waiting_scene: Option<Arc<str>>,
     /// Whether unsaved work is not recorded, so that a crash would lose it.
     pub is_unrecorded: bool,
 }
@@ -160,7 +166,9 @@ impl View {
     pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
         let edited = Edited::new(ModelAdapter::of(&loaded.model));
         let history = Arc::new(HistoryView { saved: true, saved_at: Some(0), ..HistoryView::default() });
-        let file = Arc::new(FileView { title: loaded.title.clone(), path: loaded.path.clone() });
+        let ending = loaded.format.unwrap_or(GLB).extension().to_owned();
+        let file = FileView { title: loaded.title.clone(), path: loaded.path.clone(), ending };
+        let file = Arc::new(file);
         Self::of(generation, loaded, edited.adapter(), history, file)
     }
 
@@ -186,6 +194,7 @@ impl View {
             history,
             file,
             scene: None,
+            waiting_scene: None,
             is_unrecorded: false,
         }
     }

@@ -18,6 +18,8 @@ pub(super) enum Overwrite {
 /// Options of a save.
 pub(super) struct Writing<'a> {
     pub(super) overwrite: Overwrite,
+    /// Files that are replaced whatever they contain: the user has decided.
+    pub(super) replaces: &'a [PathBuf],
     /// The folder for old versions of the file.
     pub(super) versions: Option<&'a Versions>,
     /// Whether the written file becomes the file of the document.

@@ -8,7 +8,6 @@ use crate::panels::prompts::Overlay;
 use crate::panels::sound::SoundSettings;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, FileChoice, Request};
-use dragonfly_anim::format::gltf::GLB;
 use dragonfly_document::{DocumentMessage, Offer, SaveOrder, Source, Then};
 use std::path::Path;
 
@@ -44,10 +43,8 @@ impl Running {
             FileAction::Leave(then) => return self.leave(then),
             FileAction::DoNotSave(then) => {
                 self.tell(DocumentMessage::DoNotSave);
-                match then {
-                    Then::Quit => return true,
-                    Then::Open(source) => self.tell(DocumentMessage::Open { source, anyway: true }),
-                }
+                // A scene that waits may have unsaved work too.
+                return self.leave(then);
             }
             FileAction::QuitNow => return true,
         };
@@ -102,7 +99,7 @@ impl Running {
         let Some(view) = interface.state.read().view else { return };
         let near = view.file.path.as_deref().or(view.loaded.path.as_deref());
         let folder = near.and_then(Path::parent).map(Path::to_owned);
-        let ending = view.loaded.format.unwrap_or(GLB).extension();
+        let ending = &view.file.ending;
         let name = match (&view.file.path, copy) {
             (Some(_), false) => view.file.title.clone(),
             _ => {
@@ -140,7 +137,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             let to = if copy { Copy(path) } else { As(path) };
             // `anyway`: the dialog has already asked the user whether to replace an existing
             // file.
-            let order = SaveOrder { to, anyway: true, rewrite: false, then };
+            let order = SaveOrder { to, anyway: true, ..SaveOrder::own(then) };
             interface.effects.push(Effect::File(FileAction::Send(DocumentMessage::Save(order))));
         }
         (Purpose::Find(offer), Some(path)) => {

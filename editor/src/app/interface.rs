@@ -451,7 +451,7 @@ impl Interface {
         let files = dropped.len();
         // Several files at once are takes for the model that is open; the built-in one is no work of the user.
         let own = self.state.read().view.is_some_and(|view| view.file.path.is_some());
-        let is_model = |path: &std::path::PathBuf| !dragonfly_document::is_script(path);
+        let is_model = |path: &std::path::PathBuf| !dragonfly_document::is_scene(path);
         if self.state.read().scene().is_some() && dropped.iter().all(is_model) && !dropped.is_empty() {
             requests.extend(dropped.into_iter().map(Request::AddRole));
         } else if files > 1 && own {

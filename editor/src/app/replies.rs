@@ -5,7 +5,9 @@
 use super::file_actions;
 use super::file_dialog::Answer;
 use super::interface::Interface;
-use crate::panels::dialogs::{ChangedQuestion, PlanQuestion, UnfitQuestion, UnsavedQuestion};
+use crate::panels::dialogs::{
+    ChangedQuestion, OutdatedQuestion, PlanQuestion, UnfitQuestion, UnsavedQuestion,
+};
 use crate::panels::open_model::Loading;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
@@ -80,6 +82,10 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::Unsaved(then) => {
             state.ask(UnsavedQuestion { then }.into());
             interface.effects.push(Effect::File(FileAction::Stay));
+        }
+        DocumentReply::OutdatedEdits(edits) => {
+            state.set_loading(None);
+            state.ask(OutdatedQuestion { edits }.into());
         }
         DocumentReply::MayQuit => interface.effects.push(Effect::File(FileAction::QuitNow)),
         DocumentReply::FileChanged(file) => state.ask(ChangedQuestion { file, order: None }.into()),

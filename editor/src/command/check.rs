@@ -17,7 +17,7 @@ use std::path::PathBuf;
 #[command(about = about(), long_about = None, after_help = "\
 Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
 Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher, or with --takes, a take has a defect.\n\n\
-The script of a scene (.xml) is checked with the models that it names; findings have line and column.\n\n\
+A scene (.xml) or project (.meproj) is checked with the models that it names; findings have line and column.\n\n\
 With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, joint_limit,\n\
 loop_gap (off), spare_keys and outside. A figure of more than 20 m is taken to be in centimeters or millimeters. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
 \"up\": \"y\", \"floor_height\": 0, \"rate\": 30, \"joints\": {\"Knee.L\": {\"hinge\": {\"axis\": \"x\", \"range\": [0, 150]}}}}; null switches a\n\

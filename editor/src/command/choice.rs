@@ -3,6 +3,7 @@
 use super::import_options::ImportArguments;
 use super::{Failure, progress::Teller};
 use dragonfly_anim::data::{ModelData, Take};
+use dragonfly_anim::format::Conventions;
 use dragonfly_document::{Cancel, LoadedModel, Source, formats, is_scene, load_model};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -33,6 +34,11 @@ impl File {
     /// Returns the path if it is one of a scene's script.
     pub(super) fn script(&self) -> Option<&std::path::Path> {
         Some(self.path.as_path()).filter(|path| is_scene(path))
+    }
+
+    /// Returns whether the user chose units, axes or a frame rate.
+    pub(super) fn has_conventions(&self) -> bool {
+        self.import.conventions() != Conventions::default()
     }
 
     /// Loads the model, with progress on stderr if that takes long.
@@ -82,6 +88,11 @@ pub(super) struct TakeChoice {
 }
 
 impl TakeChoice {
+    /// Returns whether the user named a take.
+    pub(super) fn is_chosen(&self) -> bool {
+        self.take.is_some()
+    }
+
     /// Returns the index of the take; `None` for the rest pose of a model without takes.
     pub(super) fn index(&self, title: &str, model: &ModelData) -> Result<Option<usize>, Failure> {
         let takes = &model.animation.takes;

@@ -13,7 +13,7 @@ Models, the files that they need, scripts, lines, edits and sounds are packed wi
 them is missing, nothing is written.\n\n\
 Examples:\n  dragonfly pack duel.meproj -o duel.zip\n  dragonfly unpack duel.zip -o duel")]
 pub(super) struct PackArguments {
-    /// A project (.meproj) or a script of a scene (.xml)
+    /// A scene (.xml) or a project (.meproj)
     #[arg(value_name = "PROJECT")]
     file: PathBuf,
     /// Archive to write (.zip)

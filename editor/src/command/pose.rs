@@ -31,7 +31,7 @@ pub(super) struct PoseArguments {
     /// Time in seconds, clamped to the take; repeat for more poses
     #[arg(long, value_name = "S", required = true, value_parser = finite, allow_negative_numbers = true)]
     time: Vec<f32>,
-    /// Role, prop or another thing of a scene's script, by its id; FILE is the script (.xml)
+    /// Role, prop or another thing of a scene, by its id; FILE is a scene (.xml) or a project (.meproj)
     #[arg(long, value_name = "ID", conflicts_with_all = ["take", "vertices"])]
     role: Option<String>,
     /// Number of vertex positions per primitive [default: all in JSON, none in text]
@@ -82,7 +82,7 @@ impl PoseArguments {
     /// Prints the poses of a thing of a scene.
     fn role(&self, role: &str) -> Result<(), Failure> {
         let Some(script) = self.file.script() else {
-            return Err(Failure::input("--role", "FILE has to be the script of a scene (.xml)"));
+            return Err(Failure::input("--role", "FILE has to be a scene (.xml) or a project (.meproj)"));
         };
         let poses = RolePoses::of(&scene::load(script)?, role, &self.time)?;
         if self.json { print_json(&poses) } else { print(|out| poses.write(out)) }

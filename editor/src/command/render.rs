@@ -93,6 +93,15 @@ impl RunCommand for RenderArguments {
     fn run(self) -> Result<(), Failure> {
         quiet::about_wayland();
         if let Some(script) = self.file.script() {
+            if self.take.is_chosen() {
+                return Err(Failure::input("--take", "a scene has no takes; its script says what plays"));
+            }
+            if self.file.has_conventions() {
+                return Err(Failure::input(
+                    "--scale, --up, --hand, --rate",
+                    "the project says how its models are read",
+                ));
+            }
             let order = scene::RenderOrder {
                 time: self.time.unwrap_or(0.0),
                 frames: self.frames,
@@ -103,7 +112,10 @@ impl RunCommand for RenderArguments {
             return scene::render(script, &order);
         }
         if self.frames.is_some() || self.camera.is_some() {
-            return Err(Failure::input("--frames, --camera", "FILE has to be the script of a scene (.xml)"));
+            return Err(Failure::input(
+                "--frames, --camera",
+                "FILE has to be a scene (.xml) or a project (.meproj)",
+            ));
         }
         let loaded = self.file.load()?;
         tell_warnings(&loaded.title, &loaded.warnings);

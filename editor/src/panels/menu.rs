@@ -389,8 +389,8 @@ pub(super) fn look_through(ui: &mut Ui, context: &PanelContext<'_>, requests: &m
 
 /// Draws the button that shows the scene again whose model is edited.
 fn back(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let Some(waiting) = context.stage.waiting().filter(|waiting| waiting.is_shown) else { return };
-    let title = RichText::new(format!("\u{2190} Back to {}", waiting.scene)).color(Theme::of(ui).accent);
+    let Some(scene) = context.view.and_then(|view| view.waiting_scene.as_ref()) else { return };
+    let title = RichText::new(format!("\u{2190} Back to {scene}")).color(Theme::of(ui).accent);
     let response = ui.add(Button::new(title).frame_when_inactive(false)).accessible_name("Back to scene");
     if response.on_hover_text(commands::tooltip(ui.ctx(), Id::BackToScene)).clicked() {
         requests.push(Request::Command(Id::BackToScene));

@@ -6,7 +6,7 @@
 
 use super::error::reason;
 use super::owner::JournalOwner;
-use super::record::{self, JournalHeader, LONGEST_RECORD, Saving, Tag};
+use super::record::{self, FileContents, JournalHeader, LONGEST_RECORD, Saving, Tag};
 use super::stamp::{FileStamp, hash};
 use super::state::JournalState;
 use super::successor::{Successor, SuccessorJournal};
@@ -201,16 +201,16 @@ impl Journal {
     /// # Errors
     /// As [`append`](Self::append).
     pub fn saving(&mut self, bytes: &[u8]) -> Result<(), JournalError> {
-        self.saving_without(0, bytes.len() as u64, hash(bytes))
+        self.saving_without(0, Some(FileContents { size: bytes.len() as u64, hash: hash(bytes) }))
     }
 
-    /// As [`saving`](Self::saving), for a file of `size` bytes with this [`hash`](hash()) that does not contain the last
-    /// `newer` edits, which were appended while the file was computed.
+    /// As [`saving`](Self::saving), for a `file` that does not contain the last `newer` edits, which were appended while it was
+    /// computed; `None` where the save writes only other files than that of the document.
     ///
     /// # Errors
     /// As [`append`](Self::append).
-    pub fn saving_without(&mut self, newer: u64, size: u64, hash: u64) -> Result<(), JournalError> {
-        self.write_json(Tag::Saving, &Saving { size, hash, newer })?;
+    pub fn saving_without(&mut self, newer: u64, file: Option<FileContents>) -> Result<(), JournalError> {
+        self.write_json(Tag::Saving, &Saving { file, newer })?;
         self.sync()
     }
 

@@ -41,7 +41,7 @@ pub use journal::{Journal, JournalError, LONGEST_UNSYNCED};
 pub use numbered::FolderLimits;
 pub use owner::{JournalOwner, OwnerStatus};
 pub use real::RealFiles;
-pub use record::LONGEST_RECORD;
+pub use record::{FileContents, LONGEST_RECORD};
 pub use recoverable::{DocumentFileState, JournalEntry, Readability, Recoverable};
 pub use recovery::{Claim, Resumed};
 pub use save::{SaveOptions, SaveOutcome, replace, save};

@@ -99,12 +99,22 @@ impl PathText {
     }
 }
 
-/// Size and hash of the file that a save is about to write: if the program is killed before it records
-/// [`Tag::Saved`], the file is compared with them.
+/// Size and hash of the bytes of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileContents {
+    /// Size in bytes.
+    pub size: u64,
+    /// Its [`hash`](super::hash()).
+    pub hash: u64,
+}
+
+/// A save that is about to write the document's file: if the program is killed before it records [`Tag::Saved`], the file is compared
+/// with what was to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Saving {
-    pub(super) size: u64,
-    pub(super) hash: u64,
+    /// The bytes; `None` where the save writes only other files, so that the file does not show whether it ended.
+    #[serde(flatten)]
+    pub(super) file: Option<FileContents>,
     /// Number of the last edits that the file does not contain, because they were made while it was computed.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub(super) newer: u64,
@@ -115,9 +125,9 @@ fn is_zero(number: &u64) -> bool {
 }
 
 impl Saving {
-    /// Returns whether this save produced the file with this stamp.
+    /// Returns whether the file with this stamp shows that this save has ended.
     pub(super) fn made(&self, stamp: &FileStamp) -> bool {
-        (self.size, self.hash) == (stamp.size, stamp.hash)
+        self.file.is_some_and(|file| (file.size, file.hash) == (stamp.size, stamp.hash))
     }
 }
 

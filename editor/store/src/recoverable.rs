@@ -197,7 +197,7 @@ impl Autosave {
         found.document = scan.header.document.as_ref().map(PathText::path);
         found.file = document_file_state(&*self.files, found.document.as_deref(), &mut state);
         found.stamp = state.stamp;
-        found.saving = state.saving.map(|(saving, _)| (saving.size, saving.hash));
+        found.saving = state.saving.and_then(|(saving, _)| saving.file).map(|file| (file.size, file.hash));
         found.work = state.work;
         found.unsaved = state.unsaved;
         found.owner = state.owner;

@@ -57,7 +57,7 @@ impl JournalState {
     /// Records that the document was saved. Edits made during the save are not in the file. If the save that was
     /// started last was to write another file than this one, it failed and does not count.
     fn saved(&mut self, stamp: FileStamp) {
-        let begun = self.saving.take().filter(|(saving, _)| saving.made(&stamp));
+        let begun = self.saving.take().filter(|(saving, _)| saving.file.is_none() || saving.made(&stamp));
         let before = begun.map_or(self.work, |(_, work)| work);
         self.unsaved = self.work - before;
         self.stamp = Some(stamp);

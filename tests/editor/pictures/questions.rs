@@ -5,11 +5,11 @@ use super::states::Fullness;
 use crate::questions::offer;
 use crate::workbench::Workbench;
 use dragonfly::panels::dialogs::{
-    ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
-    RewriteQuestion, UnfitQuestion, UnsavedQuestion,
+    ChangedQuestion, ExistsQuestion, FindQuestion, OutdatedQuestion, PlaceQuestion, PlanQuestion, Question,
+    RecoverQuestion, RewriteQuestion, UnfitQuestion, UnsavedQuestion,
 };
 use dragonfly_document::edit::{Edit, ReverseTake, TakeRef};
-use dragonfly_document::{Change, FileView, Offer, SaveOrder, Source, Then};
+use dragonfly_document::{Change, FileView, Offer, OutdatedEdits, SaveOrder, Source, Then};
 use dragonfly_store::DocumentFileState::{Changed, Missing, Same, Unsaved};
 use dragonfly_store::FileState;
 use dragonfly_store::OwnerStatus::{Exited, OnOtherHost};
@@ -65,12 +65,19 @@ const TABLE: &[QuestionRow] = &[
     ("unfit", "crowded", || UnfitQuestion { lines: lines(100_000) }.into()),
     ("rewrite", "typical", || RewriteQuestion { order: SaveOrder::own(None) }.into()),
     ("rewrite", "crowded", || RewriteQuestion { order: SaveOrder::own(Some(Then::Quit)) }.into()),
+    ("outdated", "typical", || outdated("Fox.glb")),
+    ("outdated", "crowded", || outdated(&long("A fox"))),
     ("place", "typical", || PlaceQuestion { copy: false, then: None }.into()),
     ("place", "crowded", || PlaceQuestion { copy: true, then: Some(Then::Quit) }.into()),
 ];
 
 fn exists(path: &str) -> Question {
     ExistsQuestion { path: path.into(), order: SaveOrder::own(None) }.into()
+}
+
+fn outdated(title: &str) -> Question {
+    let edits = OutdatedEdits { model: "fox".to_owned(), title: title.to_owned(), hash: 7 };
+    OutdatedQuestion { edits }.into()
 }
 
 fn plan(lines: Arc<[String]>, order: Option<SaveOrder>) -> Question {

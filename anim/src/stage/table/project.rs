@@ -61,7 +61,7 @@ pub(super) const PROJECT: ElementRow = ElementRow {
 };
 
 pub(super) const MODELS: ElementRow = ElementRow {
-    parts: &[&MODEL, &EDITS, &CLIPS],
+    parts: &[&MODEL, &EDITS],
     ..part("models", &[], "The models, which scripts name by their ids.")
 };
 
@@ -71,19 +71,6 @@ pub(super) const EDITS: ElementRow = part(
     "edits",
     &[&[required("of", NAME, "Model that they change.")], SRC],
     "Edits that are not saved into the model: a file with one edit a line.",
-);
-
-pub(super) const CLIPS: ElementRow = part(
-    "clips",
-    &[
-        &[required("onto", NAME, "Model that gets the takes.")],
-        SRC,
-        &[
-            optional("map", SOURCE, "", "Bone map between the skeletons."),
-            optional("root", TEXT, "", "How the movement through the scene is taken over."),
-        ],
-    ],
-    "Takes of other files.",
 );
 
 pub(super) const SCENE: ElementRow = part(

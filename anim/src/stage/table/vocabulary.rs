@@ -27,7 +27,6 @@ pub static PROJECTS: Vocabulary = Vocabulary {
         &project::MODELS,
         &project::MODEL,
         &project::EDITS,
-        &project::CLIPS,
         &project::SCENE,
         &cast::CAST,
         &cast::ROLE,

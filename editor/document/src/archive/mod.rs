@@ -9,6 +9,7 @@ mod write;
 pub use read::read_archive;
 pub use write::write_archive;
 
+use dragonfly_anim::limits::FILE_BYTES;
 use thiserror::Error;
 
 /// Largest number of bytes that an archive may unpack to.
@@ -57,6 +58,9 @@ pub enum ArchiveError {
     /// It would unpack to too many bytes.
     #[error("the archive unpacks to more than {MOST_UNPACKED} bytes")]
     TooLarge,
+    /// The archive itself would have too many bytes to be read again.
+    #[error("the archive would have {0} bytes; at most {FILE_BYTES} can be unpacked")]
+    TooLong(u64),
     /// The contents of a file are not those that were packed.
     #[error("{0}: its contents are damaged")]
     Checksum(String),

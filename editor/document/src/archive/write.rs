@@ -1,8 +1,10 @@
 //! Writes an archive. The same files give the same bytes: no times are stored.
 
 use super::{
-    ArchiveError, ArchivedFile, CENTRAL, DEFLATED, END, LOCAL, MOST_FILES, STORED, UTF8, checked_name,
+    ArchiveError, ArchivedFile, CENTRAL, DEFLATED, END, LOCAL, MOST_FILES, MOST_UNPACKED, STORED, UTF8,
+    checked_name,
 };
+use dragonfly_anim::limits::FILE_BYTES;
 use miniz_oxide::deflate::compress_to_vec;
 use std::collections::HashSet;
 
@@ -19,10 +21,19 @@ const VERSION: u16 = 20;
 ///
 /// # Errors
 ///
-/// Names that lead elsewhere or occur twice; too many files; 4 GiB or more.
+/// Names that lead elsewhere or occur twice; too many files or bytes for [`read_archive`](super::read_archive) or for a file that is read
+/// again.
 pub fn write_archive(files: &[ArchivedFile]) -> Result<Vec<u8>, ArchiveError> {
+    written(files, MOST_UNPACKED, FILE_BYTES)
+}
+
+/// Returns an archive of at most `most_bytes` bytes of files with at most `most_unpacked` bytes.
+fn written(files: &[ArchivedFile], most_unpacked: u64, most_bytes: u64) -> Result<Vec<u8>, ArchiveError> {
     if files.len() > MOST_FILES {
         return Err(ArchiveError::TooMany(files.len()));
+    }
+    if files.iter().map(|file| file.bytes.len() as u64).sum::<u64>() > most_unpacked {
+        return Err(ArchiveError::TooLarge);
     }
     let (mut out, mut central, mut names) = (Vec::new(), Vec::new(), HashSet::new());
     for file in files {
@@ -67,10 +78,28 @@ pub fn write_archive(files: &[ArchivedFile]) -> Result<Vec<u8>, ArchiveError> {
     out.extend(length.to_le_bytes());
     out.extend(start.to_le_bytes());
     out.extend([0; 2]);
-    Ok(out)
+    match out.len() as u64 {
+        length if length > most_bytes => Err(ArchiveError::TooLong(length)),
+        _ => Ok(out),
+    }
 }
 
 /// Returns a size as the format stores it.
 fn size(size: usize) -> Result<u32, ArchiveError> {
     u32::try_from(size).ok().filter(|&size| size < u32::MAX).ok_or(ArchiveError::TooLarge)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_could_not_be_unpacked_again_is_not_packed() {
+        let zeros = |name: &str| ArchivedFile { name: name.to_owned(), bytes: vec![0; 1000] };
+        let files = [zeros("a"), zeros("b")];
+        assert_eq!(written(&files, 1999, 1000), Err(ArchiveError::TooLarge));
+        let length = written(&files, 2000, 1000).expect("an archive").len() as u64;
+        assert_eq!(written(&files, 2000, length - 1), Err(ArchiveError::TooLong(length)));
+        assert!(written(&files, 2000, length).is_ok());
+    }
 }

@@ -7,7 +7,6 @@ use crate::adapter::{EditError, TakeId};
 use dragonfly_anim::contact::{Contact, ContactThresholds, detect_contacts, limb_of};
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_anim::frames::TakeFrames;
-use dragonfly_anim::model_unit::ModelUnit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -54,15 +53,6 @@ pub(super) fn detected(
 ) -> Result<Vec<Contact>, EditError> {
     let frames = TakeFrames::of(take, work.skeleton(), rate)?;
     Ok(detect_contacts(&frames, bones, thresholds))
-}
-
-/// Returns the meters in one unit of the model: that of the edit, or else the one guessed from the size of the figure.
-pub(super) fn unit(work: &Transaction, meters_per_unit: Option<f32>) -> Result<f32, EditError> {
-    let Some(unit) = meters_per_unit else { return Ok(ModelUnit::of(work.skeleton()).meters) };
-    if finite("the unit", unit)? <= 0.0 {
-        return Err(EditError::Number { what: "the unit", value: unit });
-    }
-    Ok(unit)
 }
 
 /// Returns the contacts stored with a take of bones that have a limb, which can be held.

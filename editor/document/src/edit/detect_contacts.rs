@@ -1,9 +1,9 @@
 //! Finds the contacts of a take and stores them with it.
 
-use super::contact_span::{detected, unit};
+use super::contact_span::detected;
 use super::kind::EditKind;
 use super::map_references::map_references;
-use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef};
+use super::{Arbitrary, BoneRef, EditUnit, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, contacts};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::contact::{ContactThresholds, feet_by_name};
@@ -23,9 +23,10 @@ pub struct DetectContacts {
     /// The bones. Where empty, those whose names say that they are feet.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bones: Vec<BoneRef>,
-    /// Meters in one unit of length of the model: 1 for glTF, 0.01 for centimeters. By default guessed from the size of the figure.
+    /// Meters in one unit of length of the model: 1 for glTF, 0.01 for centimeters, `"guess"` for what the size of the figure suggests; 1 if
+    /// absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub meters_per_unit: Option<f32>,
+    pub meters_per_unit: Option<EditUnit>,
     /// Frames per second; by default the lowest usual rate that fits the keys of the take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
@@ -57,7 +58,7 @@ impl EditKind for DetectContacts {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let id = work.take(&self.take)?;
-        let meters_per_unit = unit(work, self.meters_per_unit)?;
+        let meters_per_unit = EditUnit::length(self.meters_per_unit, 1.0, work.skeleton())?;
         let mut bones: Vec<BoneIndex> =
             self.bones.iter().map(|bone| work.bone(bone)).collect::<Result<_, _>>()?;
         if bones.is_empty() {
@@ -83,7 +84,7 @@ impl EditKind for DetectContacts {
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let rate = from.optional(|from| from.between(5.0, 60.0));
-        let meters_per_unit = from.choice([None, Some(1.0), Some(0.01)]);
+        let meters_per_unit = from.choice([None, Some(1.0.into()), Some(0.01.into()), Some(EditUnit::GUESS)]);
         Self { take: from.take(), bones: vec![from.bone()], meters_per_unit, rate }
     }
 }

@@ -69,23 +69,8 @@ impl EditScript {
 
     /// Returns the edit that leads from `old` to `new` by replacing one part, the shortest; `None` where they are the same.
     pub fn between(old: &str, new: &str, label: Option<&str>) -> Option<Self> {
-        if old == new {
-            return None;
-        }
-        let same = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b).count();
-        let start = (0..=same).rev().find(|&at| old.is_char_boundary(at) && new.is_char_boundary(at))?;
-        let ends = old[start..].bytes().rev().zip(new[start..].bytes().rev());
-        let same = ends.take_while(|(a, b)| a == b).count();
-        let is_boundary =
-            |tail: &usize| old.is_char_boundary(old.len() - tail) && new.is_char_boundary(new.len() - tail);
-        let tail = (0..=same).rev().find(is_boundary)?;
-        let splice = ScriptSplice {
-            at: start,
-            old: old[start..old.len() - tail].to_owned(),
-            new: new[start..new.len() - tail].to_owned(),
-        };
-        let label = label.map(str::to_owned);
-        Some(Self { text: None, create: false, splices: vec![splice], label, also: Vec::new() })
+        let splices = TextSplices::new(vec![TextSplice::between(old, new)?])?;
+        Some(Self { label: label.map(str::to_owned), ..Self::of(old, &splices, "") })
     }
 
     /// Returns the edit as edits of one text each, in their order.

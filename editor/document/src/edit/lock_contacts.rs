@@ -1,9 +1,9 @@
 //! Locks feet to the ground.
 
-use super::contact_span::{detected, named, stored_of_limbs, unit};
+use super::contact_span::{detected, named, stored_of_limbs};
 use super::kind::{EditKind, LayerUse};
 use super::map_references::map_references;
-use super::{Arbitrary, ContactSpan, EditedBones, Example, TakeRef};
+use super::{Arbitrary, ContactSpan, EditUnit, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::contact::{ContactThresholds, LockSettings, feet_by_name, limb_of, lock_contacts};
@@ -30,9 +30,10 @@ pub struct LockContacts {
     /// Frames per second of the new keys; by default the lowest usual rate that fits the keys of the take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
-    /// Meters in one unit of length of the model, for contacts that are to be found. By default guessed from the size of the figure.
+    /// Meters in one unit of length of the model, for contacts that are to be found; `"guess"` for what the size of the figure suggests; 1
+    /// if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub meters_per_unit: Option<f32>,
+    pub meters_per_unit: Option<EditUnit>,
 }
 
 fn four() -> u32 {
@@ -72,7 +73,7 @@ impl EditKind for LockContacts {
         let id = work.take(&self.take)?;
         let take = Arc::clone(&work.slot(id).result);
         let rate = self.rate.unwrap_or_else(|| frame_rate(&take));
-        let meters_per_unit = unit(work, self.meters_per_unit)?;
+        let meters_per_unit = EditUnit::length(self.meters_per_unit, 1.0, work.skeleton())?;
         let mut contacts = named(work, &self.contacts)?;
         let feet = feet_by_name(work.skeleton());
         if contacts.is_empty() {
@@ -99,7 +100,7 @@ impl EditKind for LockContacts {
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let contacts = (0..from.below(3)).map(|_| ContactSpan::arbitrary(from)).collect();
         let rate = from.optional(|from| from.between(5.0, 60.0));
-        let meters_per_unit = from.choice([None, Some(1.0), Some(0.01)]);
+        let meters_per_unit = from.choice([None, Some(1.0.into()), Some(0.01.into()), Some(EditUnit::GUESS)]);
         Self { take: from.take(), contacts, ease: from.below(8) as u32, rate, meters_per_unit }
     }
 }

@@ -7,7 +7,6 @@ use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::plan::{Transaction, finite, layer, rewrite};
 use crate::adapter::{EditError, LayerVersions, TakeId};
 use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
-use dragonfly_anim::frames::frame_rate;
 use dragonfly_anim::layers::{
     AddedKeys, LayerChannel, LayerMode, LayerRule, LayerSettings, flatten_channel_with, flatten_with, played,
 };
@@ -21,8 +20,8 @@ use std::sync::Arc;
 pub struct MergeLayers {
     /// The layer to merge with the one below it, the lowest one with the take; or the take, to merge all.
     pub take: TakeRef,
-    /// Frames per second of keys that are needed between those of take and layers; by default the lowest usual rate that fits the keys
-    /// of the take.
+    /// Frames per second on which keys are added that are needed between those of take and layers; if absent, they are added halfway
+    /// between others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
 }
@@ -67,8 +66,7 @@ impl EditKind for MergeLayers {
             return into_take(work, base, 1, self.rate);
         }
         let (lower, upper) = (&layers[index - 1], &layers[index]);
-        let rate = rate_of(self.rate, &work.slot(base).result)?;
-        let (settings, take) = merged(work.skeleton(), lower, upper, rate)?;
+        let (settings, take) = merged(work.skeleton(), lower, upper, added_keys(self.rate)?)?;
         let mut merged = layer::empty(work, base, settings);
         Arc::make_mut(&mut merged.keys).set_keys(take);
         layer::replace(work, base, |layers| {
@@ -85,9 +83,9 @@ impl EditKind for MergeLayers {
 /// Makes the lowest `count` layers keys of their take.
 fn into_take(work: &mut Transaction, take: TakeId, count: usize, rate: Option<f32>) -> Result<(), EditError> {
     let slot = work.slot(take);
-    let rate = rate_of(rate, &slot.result)?;
+    let added = added_keys(rate)?;
     let layers: Vec<_> = slot.layers()[..count].iter().map(LayerVersions::flat).collect();
-    let flat = flatten_with(&slot.result, &layers, work.skeleton(), AddedKeys::OnFrames(rate));
+    let flat = flatten_with(&slot.result, &layers, work.skeleton(), added);
     layer::replace(work, take, |layers| {
         layers.drain(..count);
     })?;
@@ -95,10 +93,14 @@ fn into_take(work: &mut Transaction, take: TakeId, count: usize, rate: Option<f3
     Ok(())
 }
 
-/// Returns the frame rate of new keys.
-fn rate_of(rate: Option<f32>, take: &Take) -> Result<f32, EditError> {
-    let rate = finite("the frame rate", rate.unwrap_or_else(|| frame_rate(take)))?;
-    if rate > 0.0 { Ok(rate) } else { Err(EditError::Number { what: "the frame rate", value: rate }) }
+/// Returns where keys are added.
+fn added_keys(rate: Option<f32>) -> Result<AddedKeys, EditError> {
+    let Some(rate) = rate else { return Ok(AddedKeys::Halfway) };
+    let rate = finite("the frame rate", rate)?;
+    match rate > 0.0 {
+        true => Ok(AddedKeys::OnFrames(rate)),
+        false => Err(EditError::Number { what: "the frame rate", value: rate }),
+    }
 }
 
 /// Returns the settings and the keys of one layer that does what two do.
@@ -106,7 +108,7 @@ fn merged(
     skeleton: &Skeleton,
     lower: &LayerVersions,
     upper: &LayerVersions,
-    rate: f32,
+    added: AddedKeys,
 ) -> Result<(LayerSettings, Take), EditError> {
     let (low, high) = (&lower.settings, &upper.settings);
     if low.is_muted || high.is_muted || low.is_solo != high.is_solo {
@@ -130,7 +132,7 @@ fn merged(
         for property in Property::ALL {
             with_kind!(
                 property,
-                merged_channel::<K>(&mut take.tracks[bone as usize], bone, (lower, upper), rate)
+                merged_channel::<K>(&mut take.tracks[bone as usize], bone, (lower, upper), added)
             );
         }
     }
@@ -143,7 +145,7 @@ fn merged_channel<K: ChannelKind>(
     track: &mut Track,
     bone: u32,
     (lower, upper): (&LayerVersions, &LayerVersions),
-    rate: f32,
+    added: AddedKeys,
 ) {
     let none = Channel::default();
     let keys = |layer: &'_ LayerVersions| -> Channel<K::Value> {
@@ -163,7 +165,7 @@ fn merged_channel<K: ChannelKind>(
             let identity = Channel::new(start, [<K::Rule as LayerRule>::IDENTITY], Interpolation::Linear);
             // A channel without keys would add a key at 0 s where all layers begin later.
             let base = if low.len().max(high.len()) > 1 { &none } else { &identity };
-            let (identity, added) = (<K::Rule as LayerRule>::IDENTITY, AddedKeys::OnFrames(rate));
+            let identity = <K::Rule as LayerRule>::IDENTITY;
             flatten_channel_with::<K::Rule>(base, &layers, identity, added).unwrap_or(none.clone())
         }
     };

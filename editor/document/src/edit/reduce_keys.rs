@@ -2,12 +2,11 @@
 
 use super::kind::EditKind;
 use super::map_references::map_references;
-use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef};
+use super::{Arbitrary, EditUnit, EditedBones, Example, KeySet, Property, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, contacts};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
-use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_anim::reduce::{Contacts, ReduceSettings, reduce};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,9 +24,9 @@ pub struct ReduceKeys {
     pub keys: Vec<KeySet>,
     /// The tolerance in millimeters, 0 to 10,000.
     pub tolerance: f32,
-    /// Millimeters in one unit of the model: 1000 where it is in meters. By default guessed from the size of the figure.
+    /// Millimeters in one unit of the model: 1000 where it is in meters, `"guess"` for what the size of the figure suggests; 1000 if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub unit: Option<f32>,
+    pub unit: Option<EditUnit>,
 }
 
 map_references!(ReduceKeys { take, keys, tolerance, unit });
@@ -61,7 +60,11 @@ impl EditKind for ReduceKeys {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        let unit = self.unit.unwrap_or_else(|| 1000.0 * ModelUnit::of(work.skeleton()).meters);
+        let unit = match self.unit {
+            // Of no length: nothing moves, whatever is removed.
+            Some(EditUnit::Stated(0.0)) => 0.0,
+            unit => EditUnit::length(unit, 1000.0, work.skeleton())?,
+        };
         for (what, value, most) in [("the tolerance", self.tolerance, 1e4), ("the unit", unit, 1e9)] {
             if !(0.0..=most).contains(&value) {
                 return Err(EditError::Number { what, value });
@@ -105,7 +108,7 @@ impl EditKind for ReduceKeys {
             take: from.take(),
             keys: from.keys(),
             tolerance,
-            unit: from.choice([None, Some(1000.0), Some(10.0)]),
+            unit: from.choice([None, Some(1000.0.into()), Some(10.0.into()), Some(EditUnit::GUESS)]),
         }
     }
 }

@@ -3,15 +3,14 @@
 use crate::Folder;
 use crate::adapter::{ModelAdapter, TextFiles};
 use crate::edit::TextRef;
-use crate::load::load_inside;
 use crate::scene_lines::SceneLines;
-use crate::scene_models::{SceneModelSource, with_edits};
+use crate::scene_model_source::SceneModelSource;
 use crate::text_source::is_project;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptError, StageScript};
-use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
+use dragonfly_anim::stage::{StageAssets, StagePlan};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -22,10 +21,8 @@ pub(super) struct SceneAnswers {
     /// The folder of the script; the reason why its files cannot be read where it fails.
     folder: Result<Folder, String>,
     assets: StageAssets,
-    /// The models that were read, with their sources.
-    read: BTreeMap<String, SceneModelSource>,
-    /// The models that cannot be read.
-    missing: BTreeSet<String>,
+    /// The models that were read, with their sources, and a sentence about edits that were not applied.
+    read: BTreeMap<String, (SceneModelSource, Option<String>)>,
 }
 
 /// A script as it is now: its plan, if it has no errors, its errors and its notes.
@@ -37,6 +34,10 @@ struct CheckedScript {
     plan: Option<StagePlan>,
     errors: Vec<ScriptError>,
     notes: Vec<ScriptError>,
+    /// Name of the text of the lines, and its errors.
+    lines: Option<(String, Arc<[ScriptError]>)>,
+    /// Edits of models that were not applied to them, a sentence for each model.
+    unfit: Vec<String>,
 }
 
 impl SceneAnswers {
@@ -44,13 +45,15 @@ impl SceneAnswers {
     pub(super) fn of(path: Option<&Path>) -> Self {
         let folder = path.ok_or_else(|| "the document has no file".to_owned());
         let folder = folder.and_then(|path| Folder::of(path).map_err(|error| error.to_string()));
+        // Each missing model has its own error.
+        let mut assets = StageAssets::default();
+        assets.allow_missing_models();
         Self {
             is_project: path.is_some_and(is_project),
             lines: SceneLines::default(),
             folder,
-            assets: StageAssets::default(),
+            assets,
             read: BTreeMap::new(),
-            missing: BTreeSet::new(),
         }
     }
 
@@ -84,7 +87,17 @@ impl SceneAnswers {
         };
         let [errors, notes] =
             [checked.errors, checked.notes].map(|list| list.iter().map(row).collect::<Vec<_>>());
-        Ok(json!({"text": &*checked.name, "errors": errors, "notes": notes}))
+        let mut answer = json!({"text": &*checked.name, "errors": errors, "notes": notes});
+        if let Some(object) = answer.as_object_mut() {
+            if let Some((name, errors)) = &checked.lines {
+                let errors: Vec<Value> = errors.iter().map(row).collect();
+                object.insert("lines".to_owned(), json!({"text": name, "errors": errors}));
+            }
+            if !checked.unfit.is_empty() {
+                object.insert("edits".to_owned(), json!(checked.unfit));
+            }
+        }
+        Ok(answer)
     }
 
     /// Returns when each action begins and ends.
@@ -95,8 +108,7 @@ impl SceneAnswers {
     pub(super) fn schedule(&mut self, texts: &TextFiles) -> Result<Value, String> {
         let checked = self.check(texts)?;
         let (Some(script), Some(plan)) = (&checked.script, &checked.plan) else {
-            let errors: Vec<String> = checked.errors.iter().map(ToString::to_string).collect();
-            return Err(errors.join("\n"));
+            return Err(checked.reasons().join("\n"));
         };
         let row = |(action, times): (usize, &dragonfly_anim::stage::schedule::ActionTimes)| {
             let element = script.element(action);
@@ -127,53 +139,51 @@ impl SceneAnswers {
             Ok(script) => script,
             Err(errors) => return Ok(CheckedScript { name, errors, ..CheckedScript::default() }),
         };
-        let mut errors = self.read_models(&script, project.as_ref(), texts);
+        let (mut errors, unfit) = self.read_models(&script, project.as_ref(), texts);
         let mut plan = None;
         match StagePlan::new(&script, &self.assets) {
-            Ok(found) if errors.is_empty() => plan = Some(found),
+            Ok(found) if errors.is_empty() && self.lines.errors.is_empty() => plan = Some(found),
             Ok(_) => {}
-            // A missing model has its reason already.
-            Err(more) => errors.extend(more.into_iter().filter(|error| {
-                let own = file.text.get(error.range.clone());
-                !own.is_some_and(|name| self.missing.contains(name))
-            })),
+            Err(more) => errors.extend(more),
         }
         errors.sort_by_key(|error| error.range.start);
         let notes = plan.as_ref().map(|plan| plan.schedule().notes().to_vec()).unwrap_or_default();
-        Ok(CheckedScript { name, script: Some(script), plan, errors, notes })
+        let lines = project.as_ref().and_then(StageProject::lines).filter(|_| !self.lines.errors.is_empty());
+        let lines = lines.map(|name| (name.to_owned(), Arc::clone(&self.lines.errors)));
+        Ok(CheckedScript { name, script: Some(script), plan, errors, notes, lines, unfit })
     }
 
-    /// Reads the models that the script names and that were not read from there before. Returns an error for each that is missing.
+    /// Reads the models that the script names and that were not read from there before. Returns an error for each that is missing, and a
+    /// sentence for each whose edits were not applied.
     fn read_models(
         &mut self,
         script: &StageScript,
         project: Option<&StageProject>,
         texts: &TextFiles,
-    ) -> Vec<ScriptError> {
+    ) -> (Vec<ScriptError>, Vec<String>) {
         let mut errors = Vec::new();
-        self.missing.clear();
+        let mut tried: BTreeMap<&str, Option<String>> = BTreeMap::new();
         for attribute in script.things().filter_map(|thing| thing.attribute("model")) {
             let name = &*attribute.value;
-            let file = project.map_or(name, |project| project.source_of(name)).to_owned();
-            let edits =
-                project.and_then(|project| project.edits_of(name)).and_then(|name| texts.called(name));
-            let source = SceneModelSource { file, edits: edits.map(|file| Arc::clone(&file.text)) };
-            if self.read.get(name) == Some(&source) || self.missing.contains(name) {
+            if tried.contains_key(name) {
                 continue;
             }
-            let loaded = self.folder.as_ref().map_err(Clone::clone).and_then(|folder| {
-                load_inside(folder, &source.file, &crate::Cancel::default())
-                    .map_err(|error| error.to_string())
+            let source = SceneModelSource::of(name, project, texts);
+            if let Some((_, unfit)) = self.read.get(name).filter(|(own, _)| *own == source) {
+                tried.insert(name, unfit.clone());
+                continue;
+            }
+            let read = self.folder.as_ref().map_err(Clone::clone).and_then(|folder| {
+                source.read(folder, &crate::Cancel::default()).map_err(|error| error.to_string())
             });
-            match loaded {
-                Ok((loaded, _)) => {
-                    let edits = source.edits.as_deref().unwrap_or_default();
-                    let (model, _) = with_edits(&loaded.model, &source.file, edits);
-                    self.assets.add_model(name, Arc::new(StageModel::new(model)));
-                    self.read.insert(name.to_owned(), source);
+            match read {
+                Ok(read) => {
+                    self.assets.add_model(name, read.stage);
+                    tried.insert(name, read.state.unfit.clone());
+                    self.read.insert(name.to_owned(), (source, read.state.unfit));
                 }
                 Err(reason) => {
-                    self.missing.insert(name.to_owned());
+                    tried.insert(name, None);
                     self.assets.remove_model(name);
                     self.read.remove(name);
                     let (text, range) = (script.tree().text(), attribute.value_range.clone());
@@ -182,6 +192,15 @@ impl SceneAnswers {
                 }
             }
         }
-        errors
+        (errors, tried.into_values().flatten().collect())
+    }
+}
+
+impl CheckedScript {
+    /// Returns why there is no plan, one sentence each.
+    fn reasons(&self) -> Vec<String> {
+        let lines =
+            self.lines.iter().flat_map(|(name, errors)| errors.iter().map(|error| error.in_file(name)));
+        self.errors.iter().map(ToString::to_string).chain(lines).collect()
     }
 }

@@ -3,7 +3,7 @@
 use super::scene_answers::SceneAnswers;
 use super::{ProtocolCommand, ProtocolRequest};
 use crate::open::Open;
-use crate::save_job::{SaveTarget, prepare};
+use crate::save_job::{FailedWrite, SaveTarget, prepare};
 use crate::writing::Overwrite;
 use crate::{Change, Editable, FaultInjection, OpenedModel};
 use dragonfly_anim::format::{ChangeReport, SavePlan};
@@ -132,17 +132,25 @@ impl Session {
         };
         let now = Instant::now();
         let input = self.open.begin_saving(target, role, overwrite, None, FaultInjection::default(), now)?;
-        let mut report = (Value::Null, Vec::new());
-        let written = prepare(input).and_then(|mut prepared| {
-            self.open.record_saving(&mut prepared, now);
-            report.0 = changes(prepared.changes());
-            let written = prepared.write().map_err(|error| error.to_string())?;
-            report.1.clone_from(&written.saved.files);
-            Ok(written)
-        });
-        self.open.end_save(written, None, now)?;
-        let (changes, written) = report;
-        let mut answer = json!({"written": written, "changes": changes});
+        let mut prepared = match prepare(input) {
+            Ok(prepared) => prepared,
+            Err(reason) => {
+                self.open.save_failed(None);
+                return Err(reason);
+            }
+        };
+        self.open.record_saving(&mut prepared, now);
+        let changes = changes(prepared.changes());
+        let written = match prepared.write() {
+            Ok(written) => written,
+            Err(FailedWrite { reason, partly }) => {
+                self.open.save_failed(partly);
+                return Err(reason.to_string());
+            }
+        };
+        let files = written.saved.files.clone();
+        self.open.end_save(written, None, now);
+        let mut answer = json!({"written": files, "changes": changes});
         // Pending poses are not lost, but they are not in the file.
         let pending = self.open.edited.adapter().pending_poses();
         if let (1.., Some(answer)) = (pending, answer.as_object_mut()) {

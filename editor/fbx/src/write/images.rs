@@ -6,7 +6,6 @@ use super::node::{FbxNode, bytes_node, setting};
 use super::scene::{ObjectId, SceneWriter};
 use dragonfly_anim::data::{Filter, Image, TextureRef, TextureTransform, Wrap};
 use dragonfly_anim::format::OutputFile;
-use std::collections::HashSet;
 
 /// Names of the two sets of texture coordinates.
 pub(super) const UV_SETS: [&str; 2] = ["UVMap", "UVMap2"];
@@ -25,18 +24,13 @@ pub(super) enum ImageTarget<'a> {
     /// Into the file.
     Embedded,
     /// Into files next to a file whose name without its extension is `stem`.
-    Beside {
-        stem: &'a str,
-        files: Vec<OutputFile>,
-        /// Names of the files in lower case: some file systems do not distinguish capitals.
-        used: HashSet<String>,
-    },
+    Beside { stem: &'a str, files: Vec<OutputFile> },
 }
 
 impl<'a> ImageTarget<'a> {
     /// Returns a target without files.
     pub(super) fn beside(stem: &'a str) -> Self {
-        Self::Beside { stem, files: Vec::new(), used: HashSet::new() }
+        Self::Beside { stem, files: Vec::new() }
     }
 
     /// Returns the files that are not in the file itself.
@@ -47,32 +41,24 @@ impl<'a> ImageTarget<'a> {
         }
     }
 
-    /// Stores the bytes of an image. Returns its node where it is in the file, and the name under which programs find it.
-    fn store(&mut self, wanted: String, bytes: &[u8]) -> (Option<FbxNode>, String) {
+    /// Stores the bytes of an image under a name. Returns its node where it is in the file.
+    fn store(&mut self, name: &str, bytes: &[u8]) -> Option<FbxNode> {
         match self {
-            Self::Embedded => (Some(bytes_node("Content", bytes)), wanted),
-            Self::Beside { stem, files, used } => {
-                let name = name_beside(stem, &wanted, used);
-                used.insert(name.to_lowercase());
-                files.push(OutputFile { name: name.clone(), bytes: bytes.to_vec() });
-                (None, name)
+            Self::Embedded => Some(bytes_node("Content", bytes)),
+            Self::Beside { files, .. } => {
+                files.push(OutputFile { name: name.to_owned(), bytes: bytes.to_vec() });
+                None
             }
         }
     }
-}
 
-/// Returns the name of an image next to a file: it begins with the name of that file, so that the images of several files in one
-/// folder do not replace each other.
-fn name_beside(stem: &str, wanted: &str, used: &HashSet<String>) -> String {
-    let begins = wanted.strip_prefix(stem).is_some_and(|rest| rest.starts_with(['_', '.']));
-    let wanted = if begins { wanted.to_owned() } else { format!("{stem}_{wanted}") };
-    let (start, end) = wanted.split_at(wanted.rfind('.').unwrap_or(wanted.len()));
-    let numbered = |number: usize| match number {
-        1 => wanted.clone(),
-        number => format!("{start}_{number}{end}"),
-    };
-    let is_new = |name: &String| !used.contains(&name.to_lowercase());
-    (1..).map(numbered).find(is_new).unwrap_or_default()
+    /// Returns the name that an image gets if no other one has it. Next to a file it begins with the name of that file, so that the images
+    /// of several files in one folder do not replace each other.
+    fn wanted(&self, file_name: String) -> String {
+        let Self::Beside { stem, .. } = self else { return file_name };
+        let begins = file_name.strip_prefix(stem).is_some_and(|rest| rest.starts_with(['_', '.']));
+        if begins { file_name } else { format!("{stem}_{file_name}") }
+    }
 }
 
 /// Returns the name of the file of an image.
@@ -101,7 +87,8 @@ pub(super) fn add_images(
     target: &mut ImageTarget<'_>,
     losses: &mut FbxLosses,
 ) -> WrittenImages {
-    let mut used = UsedNames::default();
+    // Some file systems do not distinguish capitals.
+    let mut used = UsedNames::without_capitals();
     let mut written = Vec::with_capacity(images.len());
     for (number, image) in images.iter().enumerate() {
         if image.bytes.is_empty() && image.file_name.is_none() {
@@ -109,12 +96,14 @@ pub(super) fn add_images(
             written.push(None);
             continue;
         }
-        let file_name = file_name(image, number);
-        let at = file_name.rfind('.').unwrap_or(file_name.len());
-        let wanted = used.unique(&file_name[..at], &file_name[at..]);
-        let (content, file_name) = match &*image.bytes {
-            [] => (None, wanted),
-            bytes => target.store(wanted, bytes),
+        let wanted = file_name(image, number);
+        // An image without bytes is a file that is there already.
+        let wanted = if image.bytes.is_empty() { wanted } else { target.wanted(wanted) };
+        let at = wanted.rfind('.').unwrap_or(wanted.len());
+        let file_name = used.unique(&wanted[..at], &wanted[at..]);
+        let content = match &*image.bytes {
+            [] => None,
+            bytes => target.store(&file_name, bytes),
         };
         let properties = FbxNode::new("Properties70")
             .containing([setting("Path", "KString", "XRefUrl", "").with(file_name.as_str())]);

@@ -6,21 +6,37 @@ use std::collections::HashMap;
 
 /// Names that were given.
 #[derive(Default)]
-pub(super) struct UsedNames(HashMap<String, u32>);
+pub(super) struct UsedNames {
+    /// For each name the number that the next one like it gets.
+    next: HashMap<String, u32>,
+    ignores_capitals: bool,
+}
 
 impl UsedNames {
+    /// Returns no names, of which later two count as the same if they differ only in capitals.
+    pub(super) fn without_capitals() -> Self {
+        Self { ignores_capitals: true, ..Self::default() }
+    }
+
     /// Returns `stem` and `end` together, with a number between them if an object before has that name.
     pub(super) fn unique(&mut self, stem: &str, end: &str) -> String {
         let wanted = format!("{stem}{end}");
-        let Some(&first) = self.0.get(&wanted) else {
-            self.0.insert(wanted.clone(), 2);
+        let key = self.key(&wanted);
+        let Some(&first) = self.next.get(&key) else {
+            self.next.insert(key, 2);
             return wanted;
         };
         let numbered = |number: u32| format!("{stem}_{number}{end}");
-        let number = (first..).find(|&number| !self.0.contains_key(&numbered(number))).unwrap_or(u32::MAX);
-        self.0.insert(wanted, number.saturating_add(1));
-        self.0.insert(numbered(number), 2);
+        let is_new = |number: &u32| !self.next.contains_key(&self.key(&numbered(*number)));
+        let number = (first..).find(is_new).unwrap_or(u32::MAX);
+        self.next.insert(key, number.saturating_add(1));
+        let key = self.key(&numbered(number));
+        self.next.insert(key, 2);
         numbered(number)
+    }
+
+    fn key(&self, name: &str) -> String {
+        if self.ignores_capitals { name.to_lowercase() } else { name.to_owned() }
     }
 }
 

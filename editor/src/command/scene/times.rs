@@ -19,7 +19,7 @@ Times are in seconds. The schema is in RELAX NG, for editors that complete and c
 Examples:\n  dragonfly script duel.xml\n  dragonfly script --schema > script.rng\n  dragonfly script --schema project > project.rng"
 )]
 pub(in crate::command) struct ScriptArguments {
-    /// A script of a scene (.xml)
+    /// A scene (.xml) or a project (.meproj)
     #[arg(value_name = "SCENE", group = "script")]
     file: Option<PathBuf>,
     /// Print the schema of scripts, or that of another kind of text

@@ -32,7 +32,7 @@ pub(in crate::panels) fn detect(workspace: &mut Workspace) -> Option<Effect> {
     Some(edit(Edit::DetectContacts(DetectContacts {
         take,
         bones: refs(&chosen),
-        meters_per_unit: panels.unit.chosen(),
+        meters_per_unit: Some(panels.unit.meters().into()),
         rate,
     })))
 }
@@ -68,7 +68,7 @@ pub(in crate::panels) fn lock(workspace: &mut Workspace) -> Option<Effect> {
     let panels = workspace.read();
     let (take, rate) = (panels.shown_take_ref()?, Some(panels.frame_rate as f32));
     let skeleton = &panels.loaded()?.model.animation.skeleton;
-    let meters_per_unit = panels.unit.chosen();
+    let meters_per_unit = Some(panels.unit.meters().into());
     let stored = panels.contacts.track().contacts();
     let has_limb = |contact: &&Contact| limb_of(skeleton, contact.bone).is_some();
     let contacts: Vec<ContactSpan> = stored.iter().filter(has_limb).map(span).collect();

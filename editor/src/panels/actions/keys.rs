@@ -79,8 +79,10 @@ pub(in crate::panels) fn cancel_or_deselect(workspace: &mut Workspace) -> Option
             workspace.scene.select_things(&[], Choice::Replace);
             workspace.scene.select_action(None);
         }
-        let is_waiting = workspace.stage.waiting().is_some_and(|waiting| waiting.is_shown);
-        if is_waiting && workspace.bones.bones().is_empty() && workspace.keys.selection().is_empty() {
+        if scene::is_waiting(workspace)
+            && workspace.bones.bones().is_empty()
+            && workspace.keys.selection().is_empty()
+        {
             return scene::show_scene(workspace);
         }
         workspace.bones.clear();

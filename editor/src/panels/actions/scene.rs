@@ -4,11 +4,11 @@ use super::scene_text::{add, change_text};
 use super::{playback, scene_camera, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
-use crate::panels::scene::{NewThing, SceneRequest, WaitingTitle};
+use crate::panels::scene::{NewThing, SceneRequest};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
+use dragonfly_document::DocumentMessage;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{DocumentMessage, View};
 use std::path::{Component, Path};
 
 /// Commands for models and the ones with the same meaning, and the same keys, while a scene is open.
@@ -127,26 +127,21 @@ pub(in crate::panels) fn edit_model(workspace: &mut Workspace, thing: &str) -> O
         workspace.say(MessageSeverity::Info, text);
         return None;
     };
-    let waiting = WaitingTitle { scene: view.file.title.as_str().into(), is_shown: false };
-    workspace.stage.set_waiting(Some(waiting));
     Some(Effect::File(FileAction::Send(DocumentMessage::EditModel(model))))
 }
 
 /// Shows the scene again, whose model is edited now.
 pub(in crate::panels) fn show_scene(workspace: &mut Workspace) -> Option<Effect> {
-    if workspace.stage.waiting().is_none_or(|waiting| !waiting.is_shown) {
+    if !is_waiting(workspace) {
         workspace.say(MessageSeverity::Info, "No model of a scene is being edited");
         return None;
     }
     Some(Effect::File(FileAction::Send(DocumentMessage::ShowScene)))
 }
 
-/// Notes whether a document that was just opened is a model of the scene that waits.
-pub(super) fn note_waiting(workspace: &mut Workspace, view: &View) {
-    let waiting = workspace.stage.waiting().filter(|_| view.scene.is_none()).cloned();
-    // A model that is opened after the one of the scene takes the place of both.
-    let waiting = waiting.filter(|waiting| !waiting.is_shown);
-    workspace.stage.set_waiting(waiting.map(|waiting| WaitingTitle { is_shown: true, ..waiting }));
+/// Returns whether a scene waits while its model is shown.
+pub(super) fn is_waiting(workspace: &Workspace) -> bool {
+    workspace.model.view().is_some_and(|view| view.waiting_scene.is_some())
 }
 
 /// Shows a scene that was just opened: from its start, paused.

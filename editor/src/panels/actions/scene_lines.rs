@@ -12,7 +12,7 @@ use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, p
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use dragonfly_anim::stage::{PlannedThing, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
-use dragonfly_document::{Change, SceneView};
+use dragonfly_document::{Change, SceneView, paths_of_renamed_line};
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
 use std::sync::Arc;
@@ -70,11 +70,12 @@ pub(super) fn perform(workspace: &mut Workspace, request: LineRequest) -> Option
             None
         }
         LineRequest::Set(line, attribute, value) => {
-            let label = if attribute == "id" { "Rename" } else { "Change value" };
             if attribute == "id" {
-                workspace.scene.lines_mut().select(value.as_deref().map(Into::into));
+                return rename(workspace, &line, value.as_deref());
             }
-            change_line(workspace, label, &line, |lines, at| lines.set(at, attribute, value.as_deref()))
+            change_line(workspace, "Change value", &line, |lines, at| {
+                lines.set(at, attribute, value.as_deref())
+            })
         }
         LineRequest::Delete(line) => change_line(workspace, "Erase line", &line, DrawnLines::removed),
         LineRequest::UseAsPath(line) => {
@@ -143,6 +144,24 @@ fn change_line(
 ) -> Option<Effect> {
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
     edit_lines(workspace, &scene, label, |lines| change(lines, line_named(lines, name)?))
+}
+
+/// Gives a line another name, and the paths that follow it too.
+fn rename(workspace: &mut Workspace, old: &str, new: Option<&str>) -> Option<Effect> {
+    const LABEL: &str = "Rename";
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let edit = lines_edit(&scene, LABEL, |lines| lines.set(line_named(lines, old)?, "id", new));
+    let also = new.map_or(Ok(Vec::new()), |new| paths_of_renamed_line(&scene, old, new, LABEL));
+    match edit.and_then(|edit| Ok(EditScript { also: also?, ..edit })) {
+        Ok(edit) => {
+            workspace.scene.lines_mut().select(new.map(Into::into));
+            Some(Effect::Change(Change::Edit(Edit::EditScript(edit), None)))
+        }
+        Err(reason) => {
+            workspace.say(MessageSeverity::Info, reason);
+            None
+        }
+    }
 }
 
 /// Deletes the selected line.

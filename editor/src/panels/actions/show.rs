@@ -53,7 +53,6 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
         let before = BeforeReload::of(workspace, &view);
-        scene::note_waiting(workspace, &view);
         workspace.stage.reset();
         workspace.camera.set_through(ThroughCamera::Free);
         workspace.model.replace(view);

@@ -4,7 +4,7 @@ use super::ask::{Ask, Tone};
 use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::{DocumentMessage, SaveOrder};
+use dragonfly_document::{DocumentMessage, SaveOrder, SaveTo};
 use std::path::PathBuf;
 
 /// The file that the order saves to exists already.
@@ -34,7 +34,12 @@ impl QuestionKind for ExistsQuestion {
         let cancel = ("Cancel", "Keep the existing file", Tone::First, false);
         match ask.buttons(&[cancel, replace]) {
             Some(true) => {
-                let order = SaveOrder { anyway: true, ..order.clone() };
+                let mut order = order.clone();
+                match order.to {
+                    // A new text of a project: what the question is not about is still checked.
+                    SaveTo::Own => order.replaces.push(path.clone()),
+                    SaveTo::As(_) | SaveTo::Copy(_) => order.anyway = true,
+                }
                 ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
             }
             Some(false) => ask.requests.push(Request::Dismiss),

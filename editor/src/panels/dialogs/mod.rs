@@ -10,6 +10,7 @@ mod exists;
 mod find;
 mod kind;
 mod line_list;
+mod outdated;
 mod place;
 mod plan;
 mod recover;
@@ -62,4 +63,5 @@ questions! {
     Find => find::FindQuestion,
     Place => place::PlaceQuestion,
     Unfit => unfit::UnfitQuestion,
+    Outdated => outdated::OutdatedQuestion,
 }

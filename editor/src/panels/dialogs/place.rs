@@ -53,7 +53,7 @@ impl QuestionKind for PlaceQuestion {
             ask.path("Path to save at", save, ("Cancel", "Close without saving"), PathPart::Name)
         {
             let to = if self.copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
-            let order = SaveOrder { to, anyway: false, rewrite: false, then: self.then.clone() };
+            let order = SaveOrder { to, ..SaveOrder::own(self.then.clone()) };
             ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
         }
     }

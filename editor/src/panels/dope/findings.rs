@@ -117,7 +117,7 @@ fn fix(finding: &LintFinding, context: &PanelContext<'_>) -> Option<(String, Req
                 take: take.clone(),
                 keys: keys(),
                 tolerance: 1.0,
-                unit: context.unit.chosen().map(|meters| 1000.0 * meters),
+                unit: Some(context.unit.millimeters().into()),
             };
             edit(format!("Reduce keys of {name} (1 mm)"), Edit::ReduceKeys(reduce))
         }

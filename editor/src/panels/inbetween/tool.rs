@@ -100,8 +100,8 @@ pub struct ChosenKeys {
     other: Option<TakeRef>,
     /// The pose that was copied last.
     pose: Option<Arc<[BonePose]>>,
-    /// Millimeters in one unit of the model, where the user set the unit.
-    unit: Option<f32>,
+    /// Millimeters in one unit of the model.
+    unit: f32,
     /// Feet that smoothing holds in the contacts of the take.
     feet: Vec<BoneRef>,
 }
@@ -123,7 +123,7 @@ impl ChosenKeys {
             axis: TurnAxis::default(),
             other: other.map(TakeRef::Index),
             pose: context.copied_pose.cloned(),
-            unit: context.unit.chosen().map(|meters| 1000.0 * meters),
+            unit: context.unit.millimeters(),
             feet: context.held_feet(),
         })
     }
@@ -411,7 +411,12 @@ impl InBetweenTool {
             Self::Reduce if value == 0.0 => chosen.blend(KeyTarget::Rest, 0.0),
             Self::Reduce => {
                 let ChosenKeys { take, keys, .. } = chosen.clone();
-                Edit::ReduceKeys(ReduceKeys { take, keys, tolerance: value as f32, unit: chosen.unit })
+                Edit::ReduceKeys(ReduceKeys {
+                    take,
+                    keys,
+                    tolerance: value as f32,
+                    unit: Some(chosen.unit.into()),
+                })
             }
             Self::Turns | Self::Repeat | Self::RepeatOffset | Self::RepeatMirror if value.round() == 0.0 => {
                 chosen.blend(KeyTarget::Rest, 0.0)

@@ -30,4 +30,4 @@ pub use line_editing::{LineEditing, line_name, line_named};
 pub use new_thing::{NewThing, new_thing_text};
 pub use request::{LineRequest, SceneRequest, ScriptChange};
 pub use template::{duel_text, free_name, project_texts};
-pub use viewport::{SceneViewport, WaitingTitle};
+pub use viewport::SceneViewport;

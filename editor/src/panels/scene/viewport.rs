@@ -24,17 +24,6 @@ pub struct SceneViewport {
     base: Option<SceneBase>,
     /// The gesture that moves a camera, which is one step.
     camera_drag: Option<Gesture>,
-    /// Title of the scene whose model is edited now, or is being opened for that.
-    waiting: Option<WaitingTitle>,
-}
-
-/// The title of a scene that waits while one of its models is edited.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WaitingTitle {
-    /// The title of the scene.
-    pub scene: Box<str>,
-    /// Whether the model is shown; it is being read before.
-    pub is_shown: bool,
 }
 
 /// The things of a plan at one time.
@@ -54,15 +43,6 @@ impl SceneViewport {
     /// Sets the thing under the pointer. Returns whether it changed.
     pub(in crate::panels) fn hover(&mut self, thing: Option<Arc<str>>) -> bool {
         std::mem::replace(&mut self.hovered, thing.clone()) != thing
-    }
-
-    /// Returns the scene that waits while its model is edited.
-    pub fn waiting(&self) -> Option<&WaitingTitle> {
-        self.waiting.as_ref()
-    }
-
-    pub(in crate::panels) fn set_waiting(&mut self, waiting: Option<WaitingTitle>) {
-        self.waiting = waiting;
     }
 
     /// Returns whether to frame the scene now, and notes that it was: once, when all its models were read.
@@ -128,8 +108,8 @@ impl SceneViewport {
         self.camera_drag = gesture;
     }
 
-    /// Forgets everything but the scene that waits: another document is shown.
+    /// Forgets everything: another document is shown.
     pub(in crate::panels) fn reset(&mut self) {
-        *self = Self { waiting: self.waiting.take(), ..Self::default() };
+        *self = Self::default();
     }
 }

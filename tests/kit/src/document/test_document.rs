@@ -209,7 +209,7 @@ impl TestDocument {
     /// Saves and waits for the result, which must be a success.
     #[track_caller]
     pub fn save(&mut self, to: SaveTo) -> SavedFile {
-        self.send(DocumentMessage::Save(SaveOrder { to, anyway: false, rewrite: false, then: None }));
+        self.send(DocumentMessage::Save(SaveOrder { to, ..SaveOrder::own(None) }));
         self.wait_for_reply(|reply| match reply {
             DocumentReply::Saved(saved) => Some(saved.clone()),
             DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
