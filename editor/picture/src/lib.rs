@@ -63,7 +63,7 @@ pub use cast::{PickedThing, PosedScene, ThroughCamera, viewport_camera};
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,
-    IkLook, LineAppearance, LineLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton,
+    IkLook, LineAppearance, LineHandle, LineLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton,
     ThingAppearance,
 };
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};

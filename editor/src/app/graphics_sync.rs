@@ -109,6 +109,7 @@ impl GraphicsSync {
             let looks = state.scene_editing.lines().looks();
             lines.lines = if state.settings.look.lines { Arc::clone(looks) } else { Arc::default() };
             state.line_draft(&mut lines.draft);
+            state.line_handles(&mut lines.handles);
         });
         sender.update(graphics, |ghosts: &mut GhostAppearance| {
             ghosts.skins = state.settings.tools.ghosts.skin;

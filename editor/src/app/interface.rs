@@ -448,7 +448,7 @@ impl Interface {
         let own = self.state.read().view.is_some_and(|view| view.file.path.is_some());
         let is_model = |path: &std::path::PathBuf| !dragonfly_document::is_script(path);
         if self.state.read().scene().is_some() && dropped.iter().all(is_model) && !dropped.is_empty() {
-            requests.extend(dropped.into_iter().map(Request::AddRole));
+            requests.extend(dropped.into_iter().map(Request::DropRole));
         } else if files > 1 && own {
             requests.push(Request::ImportTakes(dropped));
         } else if let Some(path) = dropped.into_iter().next() {

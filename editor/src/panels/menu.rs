@@ -150,7 +150,9 @@ pub(super) fn entries(
             Id::TogglePath => context.settings.tools.path,
             Id::ToolLine => context.tools.controls().line().use_of() == Some(LineUse::Note),
             Id::ToolPath => context.tools.controls().line().use_of() == Some(LineUse::Path),
+            Id::PoseLine => context.tools.controls().line().use_of() == Some(LineUse::Pose),
             Id::ToggleProblems => context.findings.is_on(),
+            Id::ToggleGroundSnap => context.settings.tools.ground,
             Id::ToggleSceneRipple => context.scene_editing.ripple(),
             _ => false,
         };
@@ -191,8 +193,8 @@ const GROUP_ENDS: &[Id] = &[
     // Scene
     Id::ProjectFromScene,
     Id::AddMark,
-    Id::SceneRename,
-    Id::CutToCamera,
+    Id::ToggleGroundSnap,
+    Id::NextShot,
     Id::ClipEndToPlayhead,
     Id::NextAction,
     Id::SceneLift,

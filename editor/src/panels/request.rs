@@ -130,6 +130,8 @@ pub enum Request {
     Scene(SceneRequest),
     /// Adds this model to the scene as a role.
     AddRole(PathBuf),
+    /// Adds this model to the scene as a role that stands under the pointer.
+    DropRole(PathBuf),
     /// Adds this model to the scene as a prop.
     AddProp(PathBuf),
     /// Makes a scene of two roles with this model, next to its file, and opens it.

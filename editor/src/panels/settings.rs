@@ -85,6 +85,8 @@ pub struct ToolSettings {
     pub path: bool,
     /// How the bones above follow one that is moved.
     pub ik: IkSettings,
+    /// Whether things of a scene that are moved stay on the ground.
+    pub ground: bool,
 }
 
 /// IK settings that are remembered.
@@ -168,6 +170,7 @@ impl Default for ToolSettings {
             ghosts: GhostSettings::default(),
             path: false,
             ik: IkSettings::default(),
+            ground: false,
         }
     }
 }

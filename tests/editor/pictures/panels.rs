@@ -48,6 +48,7 @@ panels! {
     "scene_timeline", [340.0, 120.0], the_scene_timeline_looks_as_stored;
     "scene_attributes", [210.0, 130.0], the_attributes_panel_looks_as_stored;
     "script", [240.0, 90.0], the_script_panel_looks_as_stored;
+    "shots", [250.0, 120.0], the_list_of_shots_looks_as_stored;
 }
 
 /// Returns whether a panel is shown for scenes.

@@ -19,7 +19,7 @@ pub use component::{ControlFrame, GraphicComponent};
 pub use ghosts::GhostAppearance;
 pub use gizmo::{GizmoAppearance, GizmoDragAppearance, GizmoLook};
 pub use ik::{IkAppearance, IkLook};
-pub use lines::{LineAppearance, LineLook};
+pub use lines::{LineAppearance, LineHandle, LineLook};
 pub use path::{PathAppearance, PathLook};
 
 use crate::gizmo::GizmoShape;

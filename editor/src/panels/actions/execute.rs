@@ -112,6 +112,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Sets(action) => sets::perform(workspace, &action),
         Request::Scene(request) => return scene::perform(workspace, request),
         Request::AddRole(path) => return scene::add_model(workspace, &path, NewThing::Role),
+        Request::DropRole(path) => return scene::drop_role(workspace, &path),
         Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),
         Request::NewScene(path) => return Some(Effect::NewScene(path)),
     }

@@ -1,7 +1,7 @@
 //! The scene as it is edited: what is selected, hidden and locked, its lanes, and the newest text.
 
 use super::follow::follow_action;
-use super::line_editing::LineEditing;
+use super::line_editing::{LineEditing, MarkedThings};
 use super::request::ScriptChange;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::StagePlan;
@@ -142,7 +142,8 @@ impl SceneEditing {
 
     /// Adapts what is drawn of lines and paths to the scene and the selection.
     pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>) {
-        self.lines.update(scene, &self.things);
+        let (selected, hidden, locked) = (&*self.things, &self.hidden, &self.locked);
+        self.lines.update(scene, MarkedThings { selected, hidden, locked });
     }
 
     /// Returns whether a gesture is a word that someone types.
