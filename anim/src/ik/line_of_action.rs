@@ -1,4 +1,4 @@
-//! A pose from a stroke: the bones of a chain lie along a line of action that was drawn in the view.
+//! A pose from a stroke: the bones of a chain follow a line of action that was drawn in the view.
 //!
 //! ```text
 //! l_i = length of bone i in the view plane, d_i = its depth            both as they are
@@ -34,7 +34,7 @@ pub struct ActionLine<'a> {
     pub back: Vec3,
 }
 
-/// Turns the bones of a chain so that they lie along a stroke, as seen from `line.back`. The end of the stroke that is nearer to the first joint is its
+/// Turns the bones of a chain so that they follow a stroke, as seen from `line.back`. The end of the stroke that is nearer to the first joint is its
 /// start: the sum of the distances of both ends to the ends of the chain decides.
 ///
 /// A bone without length in the view plane keeps its direction, and so does one whose part of the stroke has no length. A `limit` is applied to each bone in

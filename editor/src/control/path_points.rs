@@ -106,7 +106,7 @@ impl PathPointControl {
         let distance = |point: &PathPoint| Some(view.to_screen(point.place)?.distance(at.as_dvec2()));
         let near =
             self.points.iter().enumerate().filter_map(|(index, point)| Some((distance(point)?, index)));
-        // Where points cover each other, the one that is drawn last.
+        // Of points that cover each other, the one that is drawn last.
         let nearest =
             near.filter(|near| near.0 <= REACH).min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
         nearest.map(|(_, index)| index)
@@ -186,7 +186,7 @@ impl BaseControl for PathPointControl {
             }
             None => {
                 self.hovered = self.point_at(at);
-                // A point covers the handles behind it.
+                // A point covers the handles of the gizmo.
                 if self.hovered.is_some() { InputFlow::Stop } else { InputFlow::ToParent }
             }
         }

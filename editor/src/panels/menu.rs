@@ -261,8 +261,11 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         }
     });
     item(ui, context, Id::OpenBuiltIn, false, requests);
-    item(ui, context, Id::NewScene, false, requests);
-    item(ui, context, Id::ProjectFromScene, false, requests);
+    submenu(ui, "New", |ui| {
+        item(ui, context, Id::NewScene, false, requests);
+        item(ui, context, Id::DemoScene, false, requests);
+        item(ui, context, Id::ProjectFromScene, false, requests);
+    });
     item(ui, context, Id::ImportTakes, false, requests);
     if context.loading.is_some() {
         item(ui, context, Id::CancelLoading, false, requests);

@@ -1,4 +1,4 @@
-//! What an editor shows of paths: how much they bend, where feet land on them, and their points, which can be moved.
+//! Paths in an editor: how much they bend, where feet land on them, and their points, which can be moved.
 
 use super::actors::{bone, fox, planned, seconds};
 use super::{listed, scene};

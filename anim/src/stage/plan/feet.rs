@@ -118,7 +118,7 @@ fn lower_hips(model: &StageModel, hips: u32, lower: f32, state: &mut ThingPose) 
     }
 }
 
-/// Returns when a foot lands in the motion at `cue` of a thing that follows a path, and where it stands: in the contact of its take `turn` cycles after the
+/// Returns when a foot lands in the motion at `cue` of a thing that follows a path, and where it is then: in the contact of its take `turn` cycles after the
 /// start. `None` where the motion is another one, or ends before.
 pub(super) fn landing(
     places: &PlaceLane,

@@ -1,4 +1,4 @@
-//! Where the feet of a thing stand on its way, and how far its stride goes.
+//! Footprints of a thing on its way, and the length of its stride.
 
 use super::StagePlan;
 use super::feet::landing;
@@ -11,7 +11,7 @@ use glam::DVec3;
 /// Largest number of footprints of an action.
 const MOST: usize = 2_000;
 
-/// A place where a foot stands.
+/// A place where a foot is on the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
     /// Position of the foot in the list of feet of the model.
@@ -23,7 +23,7 @@ pub struct Footprint {
 }
 
 impl StagePlan {
-    /// Returns where the feet of a thing stand in an action that follows a path with a take, in the order of time: 2,000 places at most. Empty for
+    /// Returns the footprints of a thing in an action that follows a path with a take, in the order of time: 2,000 places at most. Empty for
     /// other actions and takes without contacts.
     pub fn footprints(&self, thing: usize, action: usize) -> Vec<Footprint> {
         let Some((planned, cue, stride)) = self.strides(thing, action) else { return Vec::new() };

@@ -51,6 +51,7 @@ pub(in crate::panels) fn let_through(
         | Effect::TogglePanel(_)
         | Effect::ResetLayout
         | Effect::NewScene(_)
+        | Effect::DemoScene(_)
         | Effect::NewProject(_)
         | Effect::RetryDevice) => pass(effect),
     }

@@ -115,6 +115,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::DropRole(path) => return scene::drop_role(workspace, &path),
         Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),
         Request::NewScene(path) => return Some(Effect::NewScene(path)),
+        Request::DemoScene(folder) => return Some(Effect::DemoScene(folder)),
     }
     None
 }

@@ -87,7 +87,7 @@ pub(super) fn add_model(
     }
 }
 
-/// Adds a model file that was dropped to the cast, as a role that stands under the pointer.
+/// Adds a model file that was dropped to the cast, as a role under the pointer.
 pub(super) fn drop_role(workspace: &mut Workspace, path: &Path) -> Option<Effect> {
     // To a centimeter, which is easy to read.
     let place = scene_ground::pointed(workspace).map(|place| (place * 100.0).round() / 100.0 + 0.0);

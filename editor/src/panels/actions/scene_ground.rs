@@ -22,7 +22,7 @@ pub(in crate::panels) fn toggle(workspace: &mut Workspace) {
     workspace.settings.tools.ground ^= true;
 }
 
-/// Moves the selected things up or down so that they stand on the ground.
+/// Moves the selected things up or down so that they are on the ground.
 pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effect> {
     let time = workspace.read().scene_time();
     let scene = workspace.model.view()?.scene.clone()?;
@@ -49,8 +49,8 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
     })
 }
 
-/// Returns the height at which each thing stands on the ground, meters: a prop with its lowest point at this time, a role or a mark with its place. `None` for
-/// things that do not stand.
+/// Returns the height at which each thing is on the ground, meters: a prop with its lowest point at this time, a role or a mark with its place. `None` for
+/// things in the air, and for paths.
 pub(super) fn heights_on_ground(scene: &SceneView, seconds: f64) -> Vec<Option<f32>> {
     let Some(mut posed) = PosedScene::without(scene, &[], None) else { return Vec::new() };
     posed.pose(seconds);

@@ -158,7 +158,7 @@ impl<'a> PanelContext<'a> {
     }
 
     /// Returns the folder of the file of the model; `None` for one that is in no file.
-    pub(super) fn model_folder(&self) -> Option<PathBuf> {
+    pub(crate) fn model_folder(&self) -> Option<PathBuf> {
         let view = self.view?;
         let path = view.file.path.as_deref().or(view.loaded.path.as_deref())?;
         path.parent().map(Path::to_owned)

@@ -3,6 +3,7 @@
 use super::follow::follow_action;
 use super::line_editing::{LineEditing, MarkedThings};
 use super::request::ScriptChange;
+use super::sounds::SceneSounds;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::lanes::SceneLanes;
@@ -32,6 +33,7 @@ pub struct SceneEditing {
     shown: Option<(Arc<StageScript>, Arc<StagePlan>)>,
     lanes: Arc<SceneLanes>,
     lines: LineEditing,
+    sounds: SceneSounds,
     /// The newest text that was sent and not answered yet.
     sent: Option<SentText>,
     /// The gesture in progress, with the text at its start.
@@ -62,6 +64,7 @@ impl Default for SceneEditing {
             shown: None,
             lanes: Arc::default(),
             lines: LineEditing::default(),
+            sounds: SceneSounds::default(),
             sent: None,
             gesture: None,
             typing: None,
@@ -129,6 +132,15 @@ impl SceneEditing {
     /// Returns the lanes of the script that is shown.
     pub fn lanes(&self) -> &Arc<SceneLanes> {
         &self.lanes
+    }
+
+    /// Returns the sounds, as far as they were read.
+    pub fn sounds(&self) -> &SceneSounds {
+        &self.sounds
+    }
+
+    pub(in crate::panels) fn sounds_mut(&mut self) -> &mut SceneSounds {
+        &mut self.sounds
     }
 
     /// Returns the lines as they are edited.
@@ -219,7 +231,7 @@ impl SceneEditing {
 
     /// Forgets everything: another document is open.
     pub(in crate::panels) fn reset(&mut self) {
-        *self = Self { ripple: self.ripple, ..Self::default() };
+        *self = Self { ripple: self.ripple, sounds: self.sounds.cleared(), ..Self::default() };
     }
 
     /// Adapts to a newer view.

@@ -137,7 +137,7 @@ impl Follower {
         found
     }
 
-    /// Returns where the thing is at each whole second since the begin, and in which direction it goes.
+    /// Returns where the thing is at each whole second since the start, and in which direction it goes.
     fn ticks(&self, plan: &StagePlan) -> Vec<[Vec3; 2]> {
         let [begin, end] = self.times;
         let seconds = ((end - begin).seconds().floor().max(0.0) as usize).min(MOST);

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub enum NewThing {
     /// A figure with takes: its model, relative to the folder of the script.
     Role(String),
-    /// A figure, and the place where it stands, as scripts have it.
+    /// A figure, and its place as scripts have it.
     RoleAt(String, String),
     /// An object: its model, relative to the folder of the script.
     Prop(String),

@@ -25,7 +25,7 @@ pub struct SceneViewport {
     base: Option<SceneBase>,
     /// The scene at the start of the drag of a point of a line.
     line_base: Option<Arc<SceneView>>,
-    /// The heights at which things stand on the ground, at the start of a drag.
+    /// The heights at which things are on the ground, at the start of a drag.
     heights: Option<Vec<Option<f32>>>,
     /// The gesture that moves a camera, which is one step.
     camera_drag: Option<Gesture>,
@@ -134,12 +134,12 @@ impl SceneViewport {
         self.line_base = scene;
     }
 
-    /// Returns the heights at which things stand on the ground, meters, as they were at the start of the drag in progress.
+    /// Returns the heights at which things are on the ground, meters, as they were at the start of the drag in progress.
     pub(in crate::panels) fn heights(&self) -> Option<&[Option<f32>]> {
         self.heights.as_deref()
     }
 
-    /// Sets the heights at which things stand on the ground; `None` at the end of a drag.
+    /// Sets the heights at which things are on the ground; `None` at the end of a drag.
     pub(in crate::panels) fn set_heights(&mut self, heights: Option<Vec<Option<f32>>>) {
         self.heights = heights;
     }
