@@ -92,6 +92,7 @@ mod scene_lines;
 mod scene_outliner;
 mod scene_points;
 mod scene_script;
+mod scene_second_view;
 mod scene_shots;
 mod scene_sounds;
 mod scene_timeline;

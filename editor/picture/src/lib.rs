@@ -70,7 +70,7 @@ pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};
 pub use error::GraphicsError;
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
-pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
+pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, SecondView, Shading};
 pub use pass::{ReferenceAppearance, ReferencePicture, ReferencePlace};
 pub use surface::WindowSurface;
 pub use surface_source::SurfaceSource;

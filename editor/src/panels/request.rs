@@ -82,6 +82,8 @@ pub enum Request {
     Camera(Camera),
     /// Sets the rectangle of the viewport, points.
     Viewport(egui::Rect),
+    /// Sets the rectangle of the second view of a scene, points; `None` without one.
+    SecondView(Option<egui::Rect>),
     /// Sets the rectangles of the tools over the viewport, points.
     Shields(Vec<egui::Rect>),
     /// Sets how ghosts are shown.

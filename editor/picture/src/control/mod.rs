@@ -58,6 +58,11 @@ impl SceneControls {
         }
     }
 
+    /// Draws no control.
+    pub(super) fn clear(&mut self) {
+        self.shape.clear();
+    }
+
     /// The shape of all controls in the frame prepared last.
     pub fn shape(&self) -> &GizmoShape {
         &self.shape

@@ -69,6 +69,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Keys(keys) => workspace.settings.keys = keys,
         Request::Camera(camera) => return framing::move_camera(workspace, camera),
         Request::Viewport(rect) => framing::set_viewport(workspace, rect),
+        Request::SecondView(rect) => workspace.camera.set_second(rect),
         Request::Ghosts(ghosts) => workspace.settings.tools.ghosts = ghosts.sanitized(),
         Request::Falloff(falloff) => scope::set_falloff(workspace, falloff),
         Request::Shields(shields) => framing::set_shields(workspace, shields),

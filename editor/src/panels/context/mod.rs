@@ -113,6 +113,8 @@ pub struct PanelContext<'a> {
     pub camera: Camera,
     /// The viewport, points.
     pub viewport: Rect,
+    /// The rectangle of the second view of a scene, points; `None` without one.
+    pub second_view: Option<egui::Rect>,
     /// The tools of the viewport, their drag, motion path and IK.
     pub tools: &'a ToolState,
     /// The drag in progress, whichever panel it belongs to.
