@@ -59,6 +59,7 @@ mod layers;
 mod lenient;
 mod levels;
 mod limited_chains;
+mod line_of_action;
 mod lint;
 mod loop_shift;
 mod loops;

@@ -55,6 +55,14 @@ fn the_palette_lists_title_matches_first_and_shows_every_row() {
 }
 
 #[test]
+fn titles_that_begin_with_the_word_come_first() {
+    let mut harness = palette("ground");
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(4);
+    assert!(!harness.state().state.read().settings.look.grid, "the ground grid is the first entry");
+}
+
+#[test]
 fn a_plural_search_word_finds_a_title_in_the_singular() {
     let mut harness = palette("shortcuts");
     harness.key_press(egui::Key::Enter);

@@ -2,10 +2,12 @@
 
 use crate::workbench::{Window, Workbench};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use dragonfly_anim::stage::line::DrawnLines;
+use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::{LiveStage, StageAssets, StageModel};
-use dragonfly_document::adapter::{ModelAdapter, TextFiles};
+use dragonfly_document::adapter::{ModelAdapter, TextFile, TextFiles};
 use dragonfly_document::history::Edited;
-use dragonfly_document::{LoadedModel, SceneModel, SceneView, View};
+use dragonfly_document::{FileView, LoadedModel, SceneModel, SceneView, View};
 use dragonfly_kit::document::fixture;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -70,10 +72,24 @@ impl SceneStage {
     }
 
     /// Returns the view of a newer text, as the document's thread publishes it.
-    pub(crate) fn view(&mut self, text: &Arc<str>) -> Arc<SceneView> {
+    pub(crate) fn view(&mut self, texts: &TextFiles) -> Arc<SceneView> {
+        let script = texts.called("scene.xml").expect("a script");
+        let project =
+            texts.called("scene.meproj").map(|file| StageProject::read(Arc::clone(&file.text)).unwrap());
+        let lines =
+            texts.called("scene.lines.xml").map(|file| DrawnLines::read(Arc::clone(&file.text)).unwrap());
+        self.assets.clear_lines();
+        for line in lines.iter().flat_map(DrawnLines::list) {
+            self.assets.add_line(line.id.as_deref().unwrap(), line.samples().points());
+        }
+        let text = &script.text;
         self.live.update(Arc::clone(text), &self.assets);
         Arc::new(SceneView {
             text: Arc::clone(text),
+            name: Arc::clone(&script.name),
+            texts: texts.clone(),
+            project: project.map(Arc::new),
+            lines: lines.map(Arc::new),
             script: self.live.script().cloned(),
             plan: self.live.plan().cloned(),
             errors: self.live.errors().into(),
@@ -85,13 +101,31 @@ impl SceneStage {
 
 /// Opens a script in the user interface.
 pub(crate) fn scene(text: &str) -> Workbench {
+    open(TextFiles::one("scene.xml", text))
+}
+
+/// Opens a project with a script and a file of lines in the user interface.
+pub(crate) fn project(script: &str, lines: &str) -> Workbench {
+    let main = r#"<project version="1">
+  <lines src="scene.lines.xml"/>
+  <script id="main" src="scene.xml"/>
+</project>
+"#;
+    let files = [("scene.meproj", main), ("scene.xml", script), ("scene.lines.xml", lines)];
+    open(files.map(|(name, text)| TextFile { name: name.into(), text: text.into() }).into_iter().collect())
+}
+
+fn open(texts: TextFiles) -> Workbench {
     let mut stage = SceneStage::new();
     let skeleton = dragonfly_anim::data::Skeleton { bones: Vec::new() };
     let empty = fixture::view("scene.xml", skeleton, &[]);
-    let text: Arc<str> = text.into();
-    let adapter =
-        ModelAdapter::of(&empty.loaded.model).with_texts(TextFiles::one("scene.xml", Arc::clone(&text)));
-    let view = View { scene: Some(stage.view(&text)), ..empty };
+    let adapter = ModelAdapter::of(&empty.loaded.model).with_texts(texts.clone());
+    let file = FileView {
+        title: "scene.xml".to_owned(),
+        path: Some("/scenes/scene.xml".into()),
+        ending: "xml".into(),
+    };
+    let view = View { scene: Some(stage.view(&texts)), file: Arc::new(file), ..empty };
     let mut bench = Workbench::new(Some(view));
     bench.edited = Some(Edited::new(adapter));
     bench.stage = Some(stage);
@@ -100,7 +134,12 @@ pub(crate) fn scene(text: &str) -> Workbench {
 
 /// Returns the text of the script in the document.
 pub(crate) fn text(window: &Window) -> String {
-    window.state().edited.as_ref().unwrap().adapter().texts().main().unwrap().to_string()
+    named_text(window, "scene.xml")
+}
+
+/// Returns a text of the document.
+pub(crate) fn named_text(window: &Window, name: &str) -> String {
+    window.state().edited.as_ref().unwrap().adapter().texts().called(name).unwrap().text.to_string()
 }
 
 /// Returns the lines that only one of two texts has.

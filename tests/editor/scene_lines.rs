@@ -14,7 +14,7 @@ use dragonfly_picture::gizmo::GizmoView;
 use glam::{DVec3, Vec2};
 
 /// Gives an event to the viewport, and the changes that follow from it to the document.
-fn send(window: &mut Window, event: InputEvent) {
+pub(crate) fn send(window: &mut Window, event: InputEvent) {
     let mut effects = Vec::new();
     window.state_mut().state.input(event, &mut effects);
     carry(window, effects);
@@ -29,13 +29,13 @@ fn carry(window: &mut Window, effects: Vec<Effect>) {
     window.run_steps(2);
 }
 
-fn run(window: &mut Window, id: Id) {
+pub(crate) fn run(window: &mut Window, id: Id) {
     let effect = window.state_mut().state.execute(Request::Command(id));
     carry(window, effect.into_iter().collect());
 }
 
 /// Returns where a place of the scene is, points from the top left of the window.
-fn at(window: &Window, place: DVec3) -> Vec2 {
+pub(crate) fn at(window: &Window, place: DVec3) -> Vec2 {
     let read = window.state().state.read();
     let rect = read.viewport;
     let view = GizmoView::new(&read.camera, Vec2::new(rect.width(), rect.height()));
@@ -43,7 +43,7 @@ fn at(window: &Window, place: DVec3) -> Vec2 {
 }
 
 /// Draws with the left button through places of the scene.
-fn stroke(window: &mut Window, places: &[DVec3]) {
+pub(crate) fn stroke(window: &mut Window, places: &[DVec3]) {
     let points: Vec<Vec2> = places.iter().map(|place| at(window, *place)).collect();
     send(window, InputEvent::MouseMove(points[0]));
     send(window, InputEvent::MouseDown(Button::Left));
@@ -63,7 +63,7 @@ fn quarter() -> Vec<DVec3> {
         .collect()
 }
 
-fn points(line: &str) -> Vec<DVec3> {
+pub(crate) fn points(line: &str) -> Vec<DVec3> {
     let text = line.split("points=\"").nth(1).expect("points").split('"').next().expect("an end");
     let numbers: Vec<f64> = text.split_whitespace().map(|number| number.parse().expect("a number")).collect();
     numbers.chunks(3).map(DVec3::from_slice).collect()

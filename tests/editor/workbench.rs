@@ -135,10 +135,9 @@ impl Workbench {
         let adapter = edited.adapter();
         let takes = adapter.results().cloned().collect();
         let generation = view.generation + 1;
-        let text = adapter.texts().main().cloned();
-        let scene = match (&mut self.stage, &text) {
-            (Some(stage), Some(text)) => Some(stage.view(text)),
-            (Some(_), None) | (None, _) => view.scene.clone(),
+        let scene = match &mut self.stage {
+            Some(stage) => Some(stage.view(adapter.texts())),
+            None => view.scene.clone(),
         };
         self.state.show(View {
             generation,

@@ -10,6 +10,7 @@
 //! |---|---|---|
 //! | [`two_bone`] | upper and lower part of a limb | law of cosines, exact in one step |
 //! | [`chain`] | any number of consecutive bones | FABRIK, finished in closed form; with joint limits damped least squares after it |
+//! | [`line_of_action`] | any number of consecutive bones | directions of the parts of a stroke, by arc length |
 //! | [`look_at`] | several bones of a chain, each with a share | turns towards the target from the first bone to the last |
 //! | [`place_feet`] | hips and legs | lowers the hips, then [`two_bone`] for each leg |
 //!
@@ -21,7 +22,8 @@
 //! * Parents may be scaled differently per axis, or mirrored: the problem is transformed into the space of the parent
 //!   of the first bone, where its lengths do not change when it turns, and the solution is valid in to-root space
 //!   again.
-//! * They allocate nothing, except that a [`ChainScratch`] grows to the longest chain it has been used for.
+//! * They allocate nothing, except that a [`ChainScratch`] grows to the longest chain it has been used for; [`line_of_action`], which runs once a stroke,
+//!   allocates.
 //! * The same input gives the same output.
 
 mod chain;
@@ -29,6 +31,7 @@ mod error;
 mod fabrik;
 mod foot;
 mod limited;
+mod line_of_action;
 mod look_at;
 mod path;
 pub(crate) mod turn;
@@ -37,5 +40,6 @@ mod two_bone;
 pub use chain::{Chain, ChainScratch, Limit, chain};
 pub use error::{IkError, Reach};
 pub use foot::{Feet, Ground, Leg, place_feet};
+pub use line_of_action::{ActionLine, line_of_action};
 pub use look_at::{Gaze, LookAt, look_at};
 pub use two_bone::{EndOrientation, Pole, TwoBone, soft_distance, two_bone};

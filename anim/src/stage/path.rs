@@ -70,6 +70,33 @@ impl StagePath {
         PathSpot { position: self.point(part, share), direction: self.slope(part, share).normalize_or_zero() }
     }
 
+    /// Returns the points that the path was made of, without neighbors at the same position.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// Returns the radius of the circle through the places after `distance` meters and `span` meters before and after that; infinite where
+    /// they are on a line, and near the ends. At a corner it is in proportion to `span`, and 0 where the path turns back.
+    pub fn radius(&self, distance: f64, span: f64) -> f64 {
+        if !(span > 0.0 && distance >= span && distance + span <= self.length()) {
+            return f64::INFINITY;
+        }
+        let [before, here, after] =
+            [distance - span, distance, distance + span].map(|at| self.at(at).position);
+        let sides = [here - before, after - here, after - before];
+        let double_area = sides[0].cross(sides[2]).length();
+        if sides[2].length() == 0.0 {
+            return 0.0;
+        }
+        if double_area > 0.0 {
+            sides.iter().map(|side| side.length()).product::<f64>() / (2.0 * double_area)
+        } else if sides[0].dot(sides[1]) < 0.0 {
+            0.0
+        } else {
+            f64::INFINITY
+        }
+    }
+
     fn pieces(&self) -> usize {
         if self.is_smooth { PIECES } else { 1 }
     }

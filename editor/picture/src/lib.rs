@@ -63,14 +63,14 @@ pub use cast::{PickedThing, PosedScene, ThroughCamera, viewport_camera};
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,
-    IkLook, LineAppearance, LineLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton,
+    IkLook, LineAppearance, LineHandle, LineLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton,
     ThingAppearance,
 };
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};
 pub use error::GraphicsError;
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
-pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
+pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, SecondView, Shading};
 pub use pass::{ReferenceAppearance, ReferencePicture, ReferencePlace};
 pub use surface::WindowSurface;
 pub use surface_source::SurfaceSource;

@@ -81,6 +81,17 @@ pub struct Look {
     pub helpers: bool,
     /// Ids of the things of a script that are neither drawn nor picked.
     pub hidden_things: Arc<[Arc<str>]>,
+    /// A second view of the scene of a script, next to the viewport; `None` for none.
+    pub second: Option<SecondView>,
+}
+
+/// A second view of the scene of a script: through a camera of it, without handles and helpers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SecondView {
+    /// Position and size, physical pixels of the window: x, y, width, height.
+    pub viewport: [u32; 4],
+    /// The camera through which the scene is seen.
+    pub through: ThroughCamera,
 }
 
 impl Default for Look {
@@ -108,6 +119,7 @@ impl Default for Look {
             through: ThroughCamera::Free,
             helpers: false,
             hidden_things: Arc::default(),
+            second: None,
         }
     }
 }

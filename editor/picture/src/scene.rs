@@ -50,6 +50,8 @@ pub struct Scene {
     /// Bones that are shown at rest.
     still: Vec<BoneIndex>,
     uniform: FrameUniform,
+    /// Whether the frame prepared last is the second view.
+    is_second: bool,
 }
 
 impl Scene {
@@ -69,6 +71,7 @@ impl Scene {
             shown: None,
             still: Vec::new(),
             uniform: bytemuck::Zeroable::zeroed(),
+            is_second: false,
         }
     }
 
@@ -199,7 +202,11 @@ impl Scene {
             }
             let (camera, look, appearances) = (&self.seen, &self.look, &self.appearances);
             let cast = self.cast.as_ref();
-            self.controls.present(&ControlFrame { model, cast, camera, look, appearances });
+            if self.is_second {
+                self.controls.clear();
+            } else {
+                self.controls.present(&ControlFrame { model, cast, camera, look, appearances });
+            }
         }
         self.uniform = self.frame_uniform();
         let frustum = self.frustum();
@@ -208,6 +215,25 @@ impl Scene {
             (None, Some(model)) => model.batch(&frustum),
             (None, None) => {}
         }
+    }
+
+    /// Computes everything for the second view at `now`. Returns the look of the viewport, to be set again after it was drawn; `None`
+    /// without a second view.
+    pub(crate) fn prepare_second(&mut self, now: Instant) -> Option<Look> {
+        let second = self.look.second.clone().filter(|_| self.cast.is_some())?;
+        let own = Look {
+            viewport: second.viewport,
+            through: second.through,
+            helpers: false,
+            skeleton: false,
+            second: None,
+            ..self.look.clone()
+        };
+        let look = std::mem::replace(&mut self.look, own);
+        self.is_second = true;
+        self.prepare(now);
+        self.is_second = false;
+        Some(look)
     }
 
     /// The part of the scene that this frame shows, as prepared last.

@@ -71,6 +71,8 @@ pub struct RenderStage {
     pub scene: Scene,
     passes: Passes,
     target: Option<SceneTarget>,
+    /// The second view.
+    second: Option<SceneTarget>,
     window_size: [u32; 2],
     scene_changed: bool,
     window_changed: bool,
@@ -100,6 +102,7 @@ impl RenderStage {
             scene: Scene::new(now),
             passes,
             target: None,
+            second: None,
             frame: None,
             window_size: [0, 0],
             scene_changed: true,
@@ -218,6 +221,9 @@ impl RenderStage {
         }
         let draws_scene = self.mode == DrawMode::All && (self.scene_changed || self.moves(now));
         if draws_scene {
+            if !self.draw_second(now) {
+                return FrameOpening::Nothing;
+            }
             self.scene.prepare(now);
         }
         match caught(|| self.open_frame(draws_scene)) {
@@ -332,7 +338,7 @@ impl RenderStage {
 
     /// Drops the textures of a lost device.
     fn forget_textures(&mut self) {
-        self.target = None;
+        (self.target, self.second) = (None, None);
         self.stand_in = None;
     }
 
@@ -347,6 +353,42 @@ impl RenderStage {
         self.device.forgive();
         self.mode = if self.mode == DrawMode::All { DrawMode::PanelsOnly } else { DrawMode::Nothing };
         self.events.push(DeviceEvent::Paused(reason));
+    }
+
+    /// Draws the second view, if there is one, before the frame: the passes prepare it and are then prepared for the viewport. Returns `false` when the device
+    /// counts as lost.
+    fn draw_second(&mut self, now: Instant) -> bool {
+        let Some([_, _, width, height]) = self.scene.look.second.as_ref().map(|second| second.viewport)
+        else {
+            self.second = None;
+            return true;
+        };
+        let look = if width == 0 || height == 0 { None } else { self.scene.prepare_second(now) };
+        let Some(look) = look else {
+            self.second = None;
+            return true;
+        };
+        let drawn = caught(|| {
+            let gpu = self.device.gpu();
+            let size = [width, height].map(|side| side.min(gpu.max_side));
+            if self.second.as_ref().is_none_or(|target| target.size() != size) {
+                self.second = Some(SceneTarget::new(gpu, size));
+            }
+            let Some(target) = &self.second else { return };
+            gpu.write_frame(self.scene.uniform());
+            let encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut commands = FrameCommands { encoder, before: Vec::new() };
+            let around = self.surroundings(self.window_size);
+            let of_scene =
+                || self.passes.list.iter().filter(|pass| pass.borrow().layer() == PassLayer::Scene);
+            of_scene().for_each(|pass| pass.borrow_mut().prepare(&around, &mut commands));
+            let mut open = target.begin(&mut commands.encoder);
+            of_scene().for_each(|pass| pass.borrow_mut().draw(&around, &mut open));
+            drop(open);
+            gpu.queue.submit(commands.before.into_iter().chain([commands.encoder.finish()]));
+        });
+        self.scene.look = look;
+        self.keep(drawn.map(|()| None))
     }
 
     fn open_frame(&mut self, draws_scene: bool) -> bool {
@@ -424,6 +466,7 @@ impl RenderStage {
             scene: &self.scene,
             window_size,
             scene_view: self.target.as_ref().map(SceneTarget::view),
+            second_view: self.second.as_ref().map(SceneTarget::view),
         }
     }
 

@@ -9,6 +9,7 @@ use super::options::Options;
 use super::reference_loader::{ReferenceAnswer, ReferenceAnswers};
 use super::replies::{Answers, Replies};
 use super::scene_maker::{self, SceneAnswer, SceneMakerReceiver};
+use super::scene_sounds::{SceneSoundAnswer, SceneSoundAnswers};
 use super::sound_loader::{SoundAnswer, SoundAnswers};
 use super::state_trace;
 use crate::panels::status::MessageSeverity;
@@ -44,6 +45,7 @@ pub(super) struct Running {
     pub(super) answers: Address<Answer>,
     references: Address<ReferenceAnswer>,
     sounds: Address<SoundAnswer>,
+    scene_sounds: Address<SceneSoundAnswer>,
     scenes: Address<SceneAnswer>,
     graphics_sync: GraphicsSync,
     /// Number of questions sent to the graphics thread.
@@ -100,7 +102,7 @@ impl EditorRuntime {
             {
                 let mut interface = running.parts.interface.borrow_mut();
                 interface.update_reference(&running.references);
-                interface.update_sound(&running.sounds);
+                interface.update_sound(&running.sounds, &running.scene_sounds);
             }
             let interface = running.parts.interface.borrow();
             let (state, scale) = (interface.state.read(), interface.pixels_per_point());
@@ -188,6 +190,11 @@ impl EditorRuntime {
                     interface.state.say(MessageSeverity::Error, format!("No project was made: {error}"));
                 }
             }
+            Effect::DemoScene(folder) => {
+                if let Err(error) = scene_maker::make_demo(folder, &running.scenes) {
+                    interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
+                }
+            }
             Effect::NewScene(model) => {
                 if let Err(error) = scene_maker::make(model, &running.scenes) {
                     interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
@@ -217,6 +224,9 @@ impl BaseRuntime for EditorRuntime {
         let opens = Rc::clone(&parts.interface);
         main.register_restartable_receiver_at(&scenes, move |_| SceneMakerReceiver(Rc::clone(&opens)));
         main.register_restartable_receiver_at(&sounds, move |_| SoundAnswers(Rc::clone(&draws)));
+        let scene_sounds = main.handle().reserve_address();
+        let tells = Rc::clone(&parts.interface);
+        main.register_restartable_receiver_at(&scene_sounds, move |_| SceneSoundAnswers(Rc::clone(&tells)));
         main.register_restartable_receiver_at(&references, move |_| ReferenceAnswers(Rc::clone(&shows)));
         let setup = self.setup();
         let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
@@ -239,6 +249,7 @@ impl BaseRuntime for EditorRuntime {
             answers,
             references,
             sounds,
+            scene_sounds,
             scenes,
             leaving: false,
             graphics_sync: GraphicsSync::default(),

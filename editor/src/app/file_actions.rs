@@ -157,6 +157,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                     Request::Answer(FileAction::Send(DocumentMessage::ReadSource(Source::File(path))))
                 }
                 FileChoice::NewScene => Request::NewScene(path),
+                FileChoice::DemoScene => Request::DemoScene(path),
                 FileChoice::Role => Request::AddRole(path),
                 FileChoice::Prop => Request::AddProp(path),
                 FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),

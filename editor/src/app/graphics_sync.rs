@@ -9,7 +9,8 @@ use dragonfly_picture::gizmo::RoleColors;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
     AppearanceSender, ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook,
-    GraphicsHandle, IkAppearance, LineAppearance, Look, PathAppearance, ReferenceAppearance, ThingAppearance,
+    GraphicsHandle, IkAppearance, LineAppearance, Look, PathAppearance, ReferenceAppearance, SecondView,
+    ThingAppearance, ThroughCamera,
 };
 use std::sync::Arc;
 
@@ -109,6 +110,7 @@ impl GraphicsSync {
             let looks = state.scene_editing.lines().looks();
             lines.lines = if state.settings.look.lines { Arc::clone(looks) } else { Arc::default() };
             state.line_draft(&mut lines.draft);
+            state.line_handles(&mut lines.handles);
         });
         sender.update(graphics, |ghosts: &mut GhostAppearance| {
             ghosts.skins = state.settings.tools.ghosts.skin;
@@ -137,15 +139,12 @@ fn look(
     let theme = Theme::get(dark);
     let settings = &state.settings.look;
     let pixels = |points: f32| (points * pixels_per_point).round().max(0.0) as u32;
-    let rect = state.viewport;
-    let (left, top) = (pixels(rect.left()), pixels(rect.top()));
+    let place = |rect: egui::Rect| {
+        let (left, top) = (pixels(rect.left()), pixels(rect.top()));
+        [left, top, pixels(rect.right()).saturating_sub(left), pixels(rect.bottom()).saturating_sub(top)]
+    };
     Look {
-        viewport: [
-            left,
-            top,
-            pixels(rect.right()).saturating_sub(left),
-            pixels(rect.bottom()).saturating_sub(top),
-        ],
+        viewport: place(state.viewport),
         pixels_per_point,
         background: theme.sky.map(linear),
         grid: settings.grid,
@@ -165,5 +164,9 @@ fn look(
         through: state.through.clone(),
         helpers: state.scene().is_some() && settings.helpers,
         hidden_things,
+        second: state
+            .second_view
+            .filter(|_| state.scene().is_some())
+            .map(|rect| SecondView { viewport: place(rect), through: ThroughCamera::Shot }),
     }
 }

@@ -4,6 +4,7 @@
 
 use super::accessibility_trace::AccessibilityTrace;
 use super::reference_loader::{ReferenceAnswer, ReferenceLoader};
+use super::scene_sounds::{SceneSoundAnswer, SceneSoundLoader};
 use super::sound_loader::{SoundAnswer, SoundLoader};
 use super::state_trace::StateTrace;
 use super::store::{self, Store};
@@ -72,6 +73,7 @@ pub struct Interface {
     accessibility_trace: AccessibilityTrace,
     reference: ReferenceLoader,
     sound: SoundLoader,
+    scene_sounds: SceneSoundLoader,
 }
 
 impl Interface {
@@ -115,6 +117,7 @@ impl Interface {
             accessibility_trace: AccessibilityTrace::default(),
             reference: ReferenceLoader::default(),
             sound: SoundLoader::default(),
+            scene_sounds: SceneSoundLoader::default(),
         }
     }
 
@@ -292,9 +295,19 @@ impl Interface {
         self.reference.receive(&mut self.state, answer);
     }
 
-    /// Starts the job that reads the sound, if another one was chosen.
-    pub(super) fn update_sound(&mut self, answers: &Address<SoundAnswer>) {
+    /// Starts the jobs that read the sound of a take, if another one was chosen, and those of a scene.
+    pub(super) fn update_sound(
+        &mut self,
+        answers: &Address<SoundAnswer>,
+        scene_answers: &Address<SceneSoundAnswer>,
+    ) {
         self.sound.update(&mut self.state, answers);
+        self.scene_sounds.update(&mut self.state, scene_answers);
+    }
+
+    /// Receives the answer of a job about a sound of a scene.
+    pub(super) fn scene_sound_answered(&mut self, answer: SceneSoundAnswer) {
+        self.scene_sounds.receive(&mut self.state, answer);
     }
 
     /// Receives the answer of a job about the sound.
@@ -453,7 +466,7 @@ impl Interface {
         let own = self.state.read().view.is_some_and(|view| view.file.path.is_some());
         let is_model = |path: &std::path::PathBuf| !dragonfly_document::is_scene(path);
         if self.state.read().scene().is_some() && dropped.iter().all(is_model) && !dropped.is_empty() {
-            requests.extend(dropped.into_iter().map(Request::AddRole));
+            requests.extend(dropped.into_iter().map(Request::DropRole));
         } else if files > 1 && own {
             requests.push(Request::ImportTakes(dropped));
         } else if let Some(path) = dropped.into_iter().next() {

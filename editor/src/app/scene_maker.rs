@@ -4,6 +4,7 @@ use super::interface::Interface;
 use crate::panels::scene::{duel_text, free_name, project_texts};
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction};
+use dragonfly_document::demo::DRAGONFLY_GLB;
 use dragonfly_document::{Cancel, LoadedModel, Source, Then, load_model};
 use dragonfly_runtime::{Address, Context, Job, JobContext, Receiver};
 use std::cell::RefCell;
@@ -24,6 +25,32 @@ pub(super) fn make(model: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result
     Ok(())
 }
 
+/// Starts to write the built-in model, and a scene of two roles with it, into a folder.
+pub(super) fn make_demo(folder: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
+    let work = move |_: &JobContext<SceneAnswer>| written(&demo_model(&folder)?);
+    Job::start(to, "new scene", work, |reason: &str| Err(reason.to_owned()))?.detach();
+    Ok(())
+}
+
+/// Returns the file of the built-in model in a folder. Writes it, unless it is there already; other files of its name stay as they are.
+fn demo_model(folder: &Path) -> Result<PathBuf, String> {
+    let names = std::iter::once("dragonfly.glb".to_owned())
+        .chain((2_u32..).map(|number| format!("dragonfly-{number}.glb")));
+    for name in names {
+        let place = folder.join(name);
+        match std::fs::read(&place) {
+            Ok(bytes) if bytes == DRAGONFLY_GLB => return Ok(place),
+            Ok(_) => {}
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                write_new(&place, DRAGONFLY_GLB)?;
+                return Ok(place);
+            }
+            Err(error) => return Err(format!("Cannot write {}: {error}", place.display())),
+        }
+    }
+    Err(format!("Cannot write to {}", folder.display()))
+}
+
 /// Starts to write a project with a script.
 pub(super) fn make_project(script: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
     let work = move |_: &JobContext<SceneAnswer>| written_project(&script);
@@ -40,14 +67,14 @@ fn written_project(script: &Path) -> SceneAnswer {
     let stem = script.file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
     let (project, lines) = (script.with_file_name(format!("{stem}.meproj")), format!("{stem}.lines.xml"));
     let [project_text, lines_text] = project_texts(name, &lines);
-    write_new(&script.with_file_name(&lines), &lines_text)?;
-    write_new(&project, &project_text)?;
+    write_new(&script.with_file_name(&lines), lines_text.as_bytes())?;
+    write_new(&project, project_text.as_bytes())?;
     Ok(project)
 }
 
-fn write_new(place: &Path, text: &str) -> Result<(), String> {
+fn write_new(place: &Path, bytes: &[u8]) -> Result<(), String> {
     let file = std::fs::OpenOptions::new().write(true).create_new(true).open(place);
-    file.and_then(|mut file| file.write_all(text.as_bytes()))
+    file.and_then(|mut file| file.write_all(bytes))
         .map_err(|error| format!("Cannot write {}: {error}", place.display()))
 }
 
@@ -60,7 +87,7 @@ fn written(path: &Path) -> SceneAnswer {
     let moving = loaded.model.animation.takes.iter().find(|take| take.length > 0.0);
     let text = duel_text([name, name], scale_of(&loaded), moving.map(|take| take.name.as_str()));
     let place = free_name(folder, Path::exists);
-    write_new(&place, &text)?;
+    write_new(&place, text.as_bytes())?;
     Ok(place)
 }
 

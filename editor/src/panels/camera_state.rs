@@ -20,6 +20,8 @@ pub(super) struct CameraState {
     moved: Option<Camera>,
     /// The viewport, points.
     viewport: Rect,
+    /// The second view of a scene, points; `None` without one.
+    second: Option<Rect>,
     /// Toolbars and cards over the viewport, points.
     shields: Vec<Rect>,
 }
@@ -33,6 +35,7 @@ impl Default for CameraState {
             is_attached: false,
             moved: None,
             viewport: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
+            second: None,
             shields: Vec::new(),
         }
     }
@@ -108,6 +111,16 @@ impl CameraState {
     /// Returns the rectangle of the viewport, points.
     pub(super) fn viewport(&self) -> Rect {
         self.viewport
+    }
+
+    /// Returns the rectangle of the second view of a scene, points; `None` without one.
+    pub(super) fn second(&self) -> Option<Rect> {
+        self.second
+    }
+
+    /// Sets the rectangle of the second view.
+    pub(super) fn set_second(&mut self, second: Option<Rect>) {
+        self.second = second;
     }
 
     /// Returns the rectangles over the viewport, points.

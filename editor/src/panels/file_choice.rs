@@ -17,6 +17,8 @@ pub enum FileChoice {
     Takes,
     /// The model of a new scene.
     NewScene,
+    /// The folder of a new scene with the built-in model.
+    DemoScene,
     /// The model of a new role of the scene.
     Role,
     /// The model of a new prop of the scene.
@@ -34,6 +36,7 @@ impl FileChoice {
             Self::Sound => "Choose a sound",
             Self::RetargetSource => "Choose the model with the take",
             Self::NewScene => "Choose the model of the two roles",
+            Self::DemoScene => "Choose the folder of the new scene",
             Self::Role => "Choose the model of the role",
             Self::Prop => "Choose the model of the prop",
             Self::Takes | Self::MappedTakes => "Import takes",
@@ -43,7 +46,7 @@ impl FileChoice {
     /// Returns the name and the extensions of the files that are proposed; `None` for a folder.
     pub fn filter(self) -> Option<(&'static str, Vec<&'static str>)> {
         match self {
-            Self::PoseFolder => None,
+            Self::PoseFolder | Self::DemoScene => None,
             Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
             Self::Sound => Some(("Sounds", vec!["wav", "flac", "ogg"])),
             Self::RetargetSource
@@ -63,7 +66,9 @@ impl FileChoice {
             Self::Reference | Self::RetargetSource => {
                 "This desktop has no dialog for choosing files; type the path instead"
             }
-            Self::NewScene => "This desktop has no dialog for choosing files; open a scene.xml instead",
+            Self::NewScene | Self::DemoScene => {
+                "This desktop has no dialog for choosing files; open a scene.xml instead"
+            }
             Self::Role | Self::Prop => {
                 "This desktop has no dialog for choosing files; drop the model on the window or write it into the script"
             }

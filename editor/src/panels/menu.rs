@@ -150,7 +150,9 @@ pub(super) fn entries(
             Id::TogglePath => context.settings.tools.path,
             Id::ToolLine => context.tools.controls().line().use_of() == Some(LineUse::Note),
             Id::ToolPath => context.tools.controls().line().use_of() == Some(LineUse::Path),
+            Id::PoseLine => context.tools.controls().line().use_of() == Some(LineUse::Pose),
             Id::ToggleProblems => context.findings.is_on(),
+            Id::ToggleGroundSnap => context.settings.tools.ground,
             Id::ToggleSceneRipple => context.scene_editing.ripple(),
             _ => false,
         };
@@ -191,8 +193,8 @@ const GROUP_ENDS: &[Id] = &[
     // Scene
     Id::ProjectFromScene,
     Id::AddMark,
-    Id::SceneRename,
-    Id::CutToCamera,
+    Id::ToggleGroundSnap,
+    Id::NextShot,
     Id::ClipEndToPlayhead,
     Id::NextAction,
     Id::SceneLift,
@@ -259,8 +261,11 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         }
     });
     item(ui, context, Id::OpenBuiltIn, false, requests);
-    item(ui, context, Id::NewScene, false, requests);
-    item(ui, context, Id::ProjectFromScene, false, requests);
+    submenu(ui, "New", |ui| {
+        item(ui, context, Id::NewScene, false, requests);
+        item(ui, context, Id::DemoScene, false, requests);
+        item(ui, context, Id::ProjectFromScene, false, requests);
+    });
     item(ui, context, Id::ImportTakes, false, requests);
     if context.loading.is_some() {
         item(ui, context, Id::CancelLoading, false, requests);
@@ -384,6 +389,7 @@ pub(super) fn look_through(ui: &mut Ui, context: &PanelContext<'_>, requests: &m
     }
     ui.separator();
     item(ui, context, Id::AttachCamera, context.is_camera_attached, requests);
+    item(ui, context, Id::ToggleSecondView, context.settings.look.second_view, requests);
     item(ui, context, Id::ToggleImageGuides, context.settings.look.image_guides, requests);
 }
 

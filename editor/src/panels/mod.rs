@@ -128,6 +128,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<scene::outliner::Outliner>::default(),
         Box::<takes::Takes>::default(),
         Box::<layers::Layers>::default(),
+        Box::<scene::shots::ShotsPanel>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
         Box::<scene::attributes::SceneAttributes>::default(),

@@ -82,6 +82,8 @@ pub enum Request {
     Camera(Camera),
     /// Sets the rectangle of the viewport, points.
     Viewport(egui::Rect),
+    /// Sets the rectangle of the second view of a scene, points; `None` without one.
+    SecondView(Option<egui::Rect>),
     /// Sets the rectangles of the tools over the viewport, points.
     Shields(Vec<egui::Rect>),
     /// Sets how ghosts are shown.
@@ -130,10 +132,14 @@ pub enum Request {
     Scene(SceneRequest),
     /// Adds this model to the scene as a role.
     AddRole(PathBuf),
+    /// Adds this model to the scene as a role under the pointer.
+    DropRole(PathBuf),
     /// Adds this model to the scene as a prop.
     AddProp(PathBuf),
     /// Makes a scene of two roles with this model, next to its file, and opens it.
     NewScene(PathBuf),
+    /// Writes the built-in model and a scene of two roles with it into this folder, and opens the scene.
+    DemoScene(PathBuf),
 }
 
 /// An action that only the application around the panels can carry out.
@@ -185,6 +191,8 @@ pub enum Effect {
     File(FileAction),
     /// Writes a scene of two roles with this model next to its file, and opens it.
     NewScene(PathBuf),
+    /// Writes the built-in model and a scene of two roles with it into this folder, and opens the scene.
+    DemoScene(PathBuf),
     /// Writes a project with this script next to its file, and opens it.
     NewProject(PathBuf),
 }

@@ -47,6 +47,8 @@ pub struct LookSettings {
     pub helpers: bool,
     /// Whether the image of the camera through which the viewport looks has thirds and safe areas.
     pub image_guides: bool,
+    /// Whether the scene is also seen through the camera of the shot, next to the viewport.
+    pub second_view: bool,
 }
 
 impl Default for LookSettings {
@@ -63,6 +65,7 @@ impl Default for LookSettings {
             lines: true,
             helpers: true,
             image_guides: true,
+            second_view: false,
         }
     }
 }
@@ -85,6 +88,8 @@ pub struct ToolSettings {
     pub path: bool,
     /// How the bones above follow one that is moved.
     pub ik: IkSettings,
+    /// Whether things of a scene that are moved stay on the ground.
+    pub ground: bool,
 }
 
 /// IK settings that are remembered.
@@ -168,6 +173,7 @@ impl Default for ToolSettings {
             ghosts: GhostSettings::default(),
             path: false,
             ik: IkSettings::default(),
+            ground: false,
         }
     }
 }

@@ -8,6 +8,7 @@ use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
 use super::reference::ReferenceTrack;
 use super::request::{Effect, Request};
+use super::scene::SceneSounds;
 use super::settings::Settings;
 use super::side_files::SideFiles;
 use super::sound::SoundTrack;
@@ -195,6 +196,11 @@ impl State {
     /// Returns the sound, to which the program around the panels adds what it read.
     pub fn sound(&mut self) -> &mut SoundTrack {
         &mut self.workspace.sound
+    }
+
+    /// Returns the sounds of the scene, to which the program around the panels adds what it read.
+    pub fn scene_sounds(&mut self) -> &mut SceneSounds {
+        self.workspace.scene.sounds_mut()
     }
 
     /// Shows the poses of the library.

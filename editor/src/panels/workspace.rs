@@ -189,6 +189,7 @@ impl Workspace {
             preview: self.preview,
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),
+            second_view: self.camera.second(),
             tools: &self.tools,
             dragging: &self.dragging,
             settings: &self.settings,

@@ -10,6 +10,7 @@ mod lines;
 mod live;
 mod missing;
 mod oracle;
+mod paths;
 mod projects;
 mod pure;
 mod random_scripts;

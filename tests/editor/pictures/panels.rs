@@ -44,10 +44,11 @@ panels! {
     "shapes", [520.0, 220.0], the_shape_keys_panel_looks_as_stored;
     "inbetween", [520.0, 220.0], the_inbetween_panel_looks_as_stored;
     "differences", [520.0, 220.0], the_differences_panel_looks_as_stored;
-    "outliner", [190.0, 200.0], the_scene_panel_looks_as_stored;
-    "scene_timeline", [340.0, 120.0], the_scene_timeline_looks_as_stored;
+    "outliner", [250.0, 420.0], the_scene_panel_looks_as_stored;
+    "scene_timeline", [1000.0, 240.0], the_scene_timeline_looks_as_stored;
     "scene_attributes", [210.0, 130.0], the_attributes_panel_looks_as_stored;
-    "script", [240.0, 90.0], the_script_panel_looks_as_stored;
+    "script", [1000.0, 320.0], the_script_panel_looks_as_stored;
+    "shots", [250.0, 120.0], the_list_of_shots_looks_as_stored;
 }
 
 /// Returns whether a panel is shown for scenes.

@@ -11,7 +11,9 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::compared::CompareWith;
 use dragonfly::panels::dialog_preview::DialogPreview;
 use dragonfly::panels::prompts::Overlay;
+use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Request, style};
+use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{Edit, TakeRef, TrimTake};
 use dragonfly_document::{Change, Source};
 use dragonfly_kit::folder::{Folder, data};
@@ -32,7 +34,7 @@ const SIZE: [u32; 2] = [1120, 700];
 /// A window: its name, and the state of the panels.
 type WindowRow = (&'static str, fn() -> Workbench);
 
-const WINDOWS: &[WindowRow] = &[("built-in", built_in), ("fox", fox)];
+const WINDOWS: &[WindowRow] = &[("built-in", built_in), ("fox", fox), ("scene", scene)];
 
 const THEMES: [(Theme, &str); 2] = [(Theme::Dark, "dark"), (Theme::Light, "light")];
 
@@ -56,6 +58,17 @@ fn fox() -> Workbench {
     bench.state.execute(Request::Seek(0.3));
     bench.state.pause();
     bench.state.execute(Request::Select(Some(7)));
+    bench
+}
+
+/// Returns two foxes with a path that is selected, next to the shot of their camera.
+fn scene() -> Workbench {
+    let mut bench = Fullness::Typical.scene();
+    bench.state.window_mut().set_frame_time(4.2);
+    let path = SceneRequest::SelectThings(vec!["aisle".into()], Choice::Replace);
+    bench.state.execute(Request::Scene(path));
+    bench.state.execute(Request::Command(Id::ToggleSecondView));
+    bench.state.pause();
     bench
 }
 

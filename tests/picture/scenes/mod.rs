@@ -6,6 +6,7 @@ mod drawing;
 mod lines;
 mod picking;
 mod posing;
+mod second_view;
 
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan, StageScene};

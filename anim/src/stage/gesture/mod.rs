@@ -15,6 +15,7 @@
 //! | [`set_fade`], [`set_speed`], [`set_repeat`] | the attribute; removed where it is the default |
 //! | [`delete_clip`], [`duplicate_clip`] | one element |
 //! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`] | one new element |
+//! | [`move_path_point`] | three numbers of `points` |
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
@@ -25,6 +26,7 @@ mod begin;
 mod draft;
 mod insert;
 mod moving;
+mod path_points;
 mod places;
 mod removal;
 mod scene;
@@ -33,6 +35,7 @@ mod trim;
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
 pub use insert::{add_clip, attach_thing, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
+pub use path_points::{move_path_point, written_points};
 pub use places::{face_thing, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene};

@@ -118,6 +118,27 @@ fn lower_hips(model: &StageModel, hips: u32, lower: f32, state: &mut ThingPose) 
     }
 }
 
+/// Returns when a foot lands in the motion at `cue` of a thing that follows a path, and where it is then: in the contact of its take `turn` cycles after the
+/// start. `None` where the motion is another one, or ends before.
+pub(super) fn landing(
+    places: &PlaceLane,
+    (cue, scale): (usize, f64),
+    contact: &FootContact,
+    turn: u32,
+) -> Option<(StageTime, DVec3)> {
+    let place = places.cues.get(cue)?;
+    let MotionKind::Follow(follower) = &place.kind else { return None };
+    let stride = follower.stride.as_ref()?;
+    let standing = StandingFeet { places, cue, follower, stride, scale };
+    let start = f64::from(turn) * stride.seconds();
+    let [from, to] = [contact.from, contact.to].map(|time| start + time.seconds());
+    if from > follower.phase(place.stop - place.begin) {
+        return None;
+    }
+    let begin = place.begin + follower.after_phase(from.max(0.0));
+    Some((begin, standing.at(contact, 0.5 * (from + to), start)))
+}
+
 /// The position that a foot has to have, and its weight: less than 1 before and after a contact.
 #[derive(Clone, Copy, Debug)]
 struct StandingTarget {

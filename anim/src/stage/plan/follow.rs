@@ -56,6 +56,11 @@ impl PathStride {
         &self.model.takes()[self.take]
     }
 
+    /// Returns the distance of a cycle, meters.
+    pub(super) fn cycle(&self) -> f64 {
+        self.cycle
+    }
+
     /// Returns the length of a cycle in seconds.
     pub(super) fn seconds(&self) -> f64 {
         self.take().length().seconds()

@@ -9,6 +9,7 @@ mod evaluate;
 mod fade;
 mod feet;
 mod follow;
+mod footprints;
 mod holds;
 mod looks;
 mod motions;
@@ -21,6 +22,7 @@ mod spot;
 mod thing;
 
 pub use cues::{SoundCue, TitleCue};
+pub use footprints::Footprint;
 pub use placement::Placement;
 pub use thing::PlannedThing;
 

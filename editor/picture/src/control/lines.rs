@@ -1,19 +1,24 @@
-//! Drawing lines: those of a project, the one that is being drawn, and the paths of a scene with arrows and seconds.
+//! Drawing lines: those of a project, the one that is being drawn, and the paths of a scene with arrows, seconds, footprints, and points to drag.
 
 use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;
 use crate::cast::PosedScene;
-use crate::gizmo::{GizmoShape, LineInk};
+use crate::gizmo::{GizmoRole, GizmoShape, GizmoView, LineInk};
 use dragonfly_anim::fast::matrix::mat4;
 use dragonfly_anim::stage::line::DrawnLine;
 use dragonfly_anim::stage::time::StageTime;
-use glam::{Mat4, Quat, Vec3};
+use glam::{Mat4, Quat, Vec2, Vec3};
 use std::sync::Arc;
 
 /// Length of the strokes of an arrow along its path and to its side, meters.
 const ARROW: f32 = 0.12;
 /// Half the length of a tick across its path, meters.
 const TICK: f32 = 0.16;
+/// Half the size of a footprint, meters.
+const PRINT: f32 = 0.05;
+/// Half the size of a point that can be dragged, and of one that gives a curve its direction, points of the screen.
+const POINT: f32 = 5.0;
+const ARM: f32 = 3.5;
 
 /// A line as it is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +37,19 @@ pub struct LineLook {
     pub arrows: Arc<[[Vec3; 2]]>,
     /// Places and directions at each second of the one that follows it.
     pub ticks: Arc<[[Vec3; 2]]>,
+    /// Places where a foot lands.
+    pub dots: Arc<[Vec3]>,
+}
+
+/// A point of a line that can be dragged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineHandle {
+    /// Its position, scene space.
+    pub place: Vec3,
+    /// For a point that gives a curve its direction: the point of the line that it belongs to.
+    pub arm: Option<Vec3>,
+    /// Whether it is under the pointer or dragged.
+    pub is_marked: bool,
 }
 
 impl LineLook {
@@ -45,6 +63,7 @@ impl LineLook {
             of: line.of.clone().filter(|of| !of.is_empty()),
             arrows: Arc::default(),
             ticks: Arc::default(),
+            dots: Arc::default(),
         }
     }
 }
@@ -58,6 +77,8 @@ pub struct LineAppearance {
     pub draft: Vec<Vec3>,
     /// Color and width of the line that is being drawn.
     pub draft_ink: LineInk,
+    /// The points that can be dragged.
+    pub handles: Vec<LineHandle>,
 }
 
 /// Lists are compared by identity, which costs the same for any length.
@@ -65,7 +86,7 @@ impl PartialEq for LineAppearance {
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self.lines.as_ptr(), other.lines.as_ptr())
             && self.lines.len() == other.lines.len()
-            && (self.draft_ink, &self.draft) == (other.draft_ink, &other.draft)
+            && (self.draft_ink, &self.draft, &self.handles) == (other.draft_ink, &other.draft, &other.handles)
     }
 }
 
@@ -77,9 +98,11 @@ pub(super) struct LinesGraphic;
 
 impl GraphicComponent for LinesGraphic {
     fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape) {
-        let (Some(look), Some(cast)) = (frame.appearances.get::<LineAppearance>(), frame.cast) else {
-            return;
-        };
+        let Some(look) = frame.appearances.get::<LineAppearance>() else { return };
+        for pair in look.draft.windows(2) {
+            shape.add_inked_line(pair[0], pair[1], look.draft_ink, 1.0);
+        }
+        let Some(cast) = frame.cast else { return };
         let now = cast.state().time.seconds();
         for line in look.lines.iter().filter(|line| is_shown(line, now)) {
             let place = match line.of.as_deref().map(|of| place_of(cast, of)) {
@@ -90,9 +113,24 @@ impl GraphicComponent for LinesGraphic {
             };
             draw(line, place, shape);
         }
-        for pair in look.draft.windows(2) {
-            shape.add_inked_line(pair[0], pair[1], look.draft_ink, 1.0);
+        draw_handles(frame, &look.handles, shape);
+    }
+}
+
+/// Draws the points that can be dragged, of the same size at any distance.
+fn draw_handles(frame: &ControlFrame<'_>, handles: &[LineHandle], shape: &mut GizmoShape) {
+    let [_, _, width, height] = frame.look.viewport;
+    let pixels = Vec2::new(width as f32, height as f32);
+    let view = GizmoView::of_pixels(frame.camera, pixels, frame.look.pixels_per_point);
+    let (right, up) = (frame.camera.right(), frame.camera.up());
+    for handle in handles {
+        let Some(unit) = view.units_per_point(handle.place.as_dvec3()) else { continue };
+        let role = if handle.is_marked { GizmoRole::Hover } else { GizmoRole::Selected };
+        if let Some(arm) = handle.arm {
+            shape.add_line(arm, handle.place, role, 0.6);
         }
+        let reach = if handle.arm.is_some() { ARM } else { POINT } * unit as f32;
+        shape.add_diamond(handle.place, right * reach, up * reach, role, 1.0);
     }
 }
 
@@ -134,5 +172,10 @@ fn draw(line: &LineLook, place: Mat4, shape: &mut GizmoShape) {
     for &[at, along] in line.ticks.iter() {
         let side = along.cross(Vec3::Y).normalize_or(Vec3::X) * TICK;
         add(at - side, at + side);
+    }
+    for &at in line.dots.iter() {
+        let [x, z] = [Vec3::X, Vec3::Z].map(|axis| axis * PRINT);
+        let corners = [at + x, at + z, at - x, at - z];
+        (0..4).for_each(|corner| add(corners[corner], corners[(corner + 1) % 4]));
     }
 }

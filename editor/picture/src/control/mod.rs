@@ -19,7 +19,7 @@ pub use component::{ControlFrame, GraphicComponent};
 pub use ghosts::GhostAppearance;
 pub use gizmo::{GizmoAppearance, GizmoDragAppearance, GizmoLook};
 pub use ik::{IkAppearance, IkLook};
-pub use lines::{LineAppearance, LineLook};
+pub use lines::{LineAppearance, LineHandle, LineLook};
 pub use path::{PathAppearance, PathLook};
 
 use crate::gizmo::GizmoShape;
@@ -56,6 +56,11 @@ impl SceneControls {
         for component in &mut self.list {
             component.present(frame, &mut self.shape);
         }
+    }
+
+    /// Draws no control.
+    pub(super) fn clear(&mut self) {
+        self.shape.clear();
     }
 
     /// The shape of all controls in the frame prepared last.

@@ -23,6 +23,8 @@ pub struct Surroundings<'a> {
     pub window_size: [u32; 2],
     /// The finished scene; `None` while the viewport has no size.
     pub scene_view: Option<&'a wgpu::TextureView>,
+    /// The finished second view of the scene; `None` without one.
+    pub second_view: Option<&'a wgpu::TextureView>,
 }
 
 /// Draws one kind of object. Keeps the device resources it needs and reloads them after a loss.

@@ -33,6 +33,8 @@ pub enum LineUse {
     Note,
     /// A path of the script.
     Path,
+    /// The pose of a chain of bones: its line of action.
+    Pose,
 }
 
 /// The outcome of an input.
@@ -94,9 +96,13 @@ impl LineControl {
         (self.use_of, self.phase) = (use_of, LinePhase::Idle);
     }
 
-    /// Returns where lines are drawn. Paths are always on the ground.
+    /// Returns where lines are drawn. Paths are always on the ground, and lines of action in the view.
     pub fn surface(&self) -> LineSurface {
-        if self.use_of == Some(LineUse::Path) { LineSurface::Ground } else { self.surface }
+        match self.use_of {
+            Some(LineUse::Path) => LineSurface::Ground,
+            Some(LineUse::Pose) => LineSurface::View,
+            Some(LineUse::Note) | None => self.surface,
+        }
     }
 
     /// Chooses where lines are drawn.

@@ -6,7 +6,8 @@
 //!       ├ shields: toolbars on top           panels take precedence where they are
 //!       └ gizmo                             where its handles are; everywhere during its drag
 //!           └ path                          the same with its keys, which cover the handles of the gizmo
-//!               └ line                      everywhere while lines are drawn
+//!               └ points                    the points of paths of a scene, in the same way
+//!                   └ line                  everywhere while lines are drawn
 //! ```
 //!
 //! Inputs arrive as they happen, not once a frame. The owner takes the outcome after each.
@@ -31,6 +32,7 @@ use super::input::InputEvent;
 use super::key::Modifiers;
 use super::line::LineControl;
 use super::path::PathControl;
+use super::path_points::PathPointControl;
 use super::viewport::ViewportControl;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::gizmo::GizmoView;
@@ -91,6 +93,7 @@ macro_rules! tools {
 tools! {
     gizmo: GizmoControl,
     path: PathControl,
+    points: PathPointControl,
     line: LineControl,
 }
 
@@ -146,6 +149,16 @@ impl ViewportTools {
     /// Returns the keys of the motion path, to be changed.
     pub fn path_mut(&mut self) -> &mut PathControl {
         &mut self.owner.path.1
+    }
+
+    /// Returns the points of paths and lines of a scene.
+    pub fn points(&self) -> &PathPointControl {
+        &self.owner.points.1
+    }
+
+    /// Returns the points of paths and lines of a scene, to be changed.
+    pub fn points_mut(&mut self) -> &mut PathPointControl {
+        &mut self.owner.points.1
     }
 
     /// Returns the tool that draws lines.

@@ -3,6 +3,7 @@
 use crate::control::base::{BaseControl, Mouse};
 use crate::control::line::LineAnswer;
 use crate::control::path::PathKey;
+use crate::control::path_points::PathPoint;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::edit::Edit;
 use dragonfly_picture::gizmo::{GizmoSettings, GizmoView, PosedSkeleton, Tool};
@@ -37,6 +38,8 @@ pub enum ToolOutcome {
     Poses,
     /// Move the joint of the active bone to this position at this key.
     MoveKey(PathKey),
+    /// Move a point of a path or a line of the scene to this position.
+    MovePoint(PathPoint),
     /// Apply an edit. It replaces the edit that the same drag asked for before.
     Edit(Edit),
     /// Change the lines of the scene.

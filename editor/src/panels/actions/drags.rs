@@ -52,6 +52,7 @@ pub(in crate::panels) fn let_through(
         | Effect::ShowPanel(_)
         | Effect::ResetLayout
         | Effect::NewScene(_)
+        | Effect::DemoScene(_)
         | Effect::NewProject(_)
         | Effect::RetryDevice) => pass(effect),
     }

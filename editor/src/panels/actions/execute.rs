@@ -69,6 +69,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Keys(keys) => workspace.settings.keys = keys,
         Request::Camera(camera) => return framing::move_camera(workspace, camera),
         Request::Viewport(rect) => framing::set_viewport(workspace, rect),
+        Request::SecondView(rect) => workspace.camera.set_second(rect),
         Request::Ghosts(ghosts) => workspace.settings.tools.ghosts = ghosts.sanitized(),
         Request::Falloff(falloff) => scope::set_falloff(workspace, falloff),
         Request::Shields(shields) => framing::set_shields(workspace, shields),
@@ -112,8 +113,10 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Sets(action) => sets::perform(workspace, &action),
         Request::Scene(request) => return scene::perform(workspace, request),
         Request::AddRole(path) => return scene::add_model(workspace, &path, NewThing::Role),
+        Request::DropRole(path) => return scene::drop_role(workspace, &path),
         Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),
         Request::NewScene(path) => return Some(Effect::NewScene(path)),
+        Request::DemoScene(folder) => return Some(Effect::DemoScene(folder)),
     }
     None
 }

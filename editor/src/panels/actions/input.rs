@@ -1,6 +1,6 @@
 //! Input of the viewport: events reach the tools as they happen, and the resulting effects are passed on at once.
 
-use super::{locks, playback, scene_camera, scene_gizmo, scene_lines, tools};
+use super::{locks, playback, scene_camera, scene_gizmo, scene_lines, scene_points, tools};
 use crate::control::path::PathKey;
 use crate::control::{Button, InputEvent, ToolOutcome, ViewportOutcome};
 use crate::panels::request::Effect;
@@ -74,6 +74,7 @@ fn take_tool_outcome(workspace: &mut Workspace, outcome: ToolOutcome, effects: &
                 send(workspace, edit, effects);
             }
         }
+        ToolOutcome::MovePoint(point) => scene_points::send(workspace, &point, effects),
         ToolOutcome::Line(answer) => effects.extend(scene_lines::answered(workspace, answer)),
         ToolOutcome::Edit(edit) => send(workspace, edit, effects),
         ToolOutcome::Done => end_drag(workspace, false, effects),

@@ -78,7 +78,16 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
     }
     let bounds = workspace.read().play_bounds();
     if bounds.1 <= 0.0 {
-        return workspace.say(MessageSeverity::Info, "All keys are at one time: there is nothing to play");
+        let text = match workspace.read().scene().is_some() {
+            true => "No action of the scene takes time: there is nothing to play",
+            false => "All keys are at one time: there is nothing to play",
+        };
+        return workspace.say(MessageSeverity::Info, text);
+    }
+    let plan = workspace.read().scene().and_then(|scene| scene.plan.clone());
+    if plan.is_some_and(|plan| !plan.sounds().is_empty()) && workspace.scene.sounds_mut().note_silence() {
+        let text = "The sounds of the scene are shown and not played: this program has no sound output";
+        workspace.say(MessageSeverity::Info, text);
     }
     workspace.player.play(bounds, speed);
 }

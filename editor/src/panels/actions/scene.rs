@@ -1,12 +1,13 @@
 //! Scenes: selection, the newest text, things of the cast.
 
 use super::scene_text::{add, change_text};
-use super::{playback, scene_camera, scene_lines, scene_view};
+use super::{playback, scene_camera, scene_ground, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::scene::{NewThing, SceneRequest};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
+use dragonfly_anim::stage::line::points_text;
 use dragonfly_document::DocumentMessage;
 use dragonfly_document::bones::Choice;
 use std::path::{Component, Path};
@@ -23,10 +24,11 @@ const COUNTERPARTS: &[(Id, Id)] = &[
     (Id::RestPose, Id::LookThroughShot),
 ];
 
-/// Returns the command that is run in place of another one while a scene is open.
+/// Returns the command that is run in place of another one: those of scenes while a scene is open, and the pose line in place of lines of a project
+/// while a model is.
 pub(in crate::panels) fn counterpart(workspace: &Workspace, command: &'static Command) -> &'static Command {
     if workspace.read().scene().is_none() {
-        return command;
+        return if command.id == Id::ToolLine { commands::get(Id::PoseLine) } else { command };
     }
     let other = COUNTERPARTS.iter().find(|(own, _)| *own == command.id).map(|(_, other)| *other);
     other.map_or(command, commands::get)
@@ -82,6 +84,16 @@ pub(super) fn add_model(
             workspace.say(MessageSeverity::Warning, text);
             None
         }
+    }
+}
+
+/// Adds a model file that was dropped to the cast, as a role under the pointer.
+pub(super) fn drop_role(workspace: &mut Workspace, path: &Path) -> Option<Effect> {
+    // To a centimeter, which is easy to read.
+    let place = scene_ground::pointed(workspace).map(|place| (place * 100.0).round() / 100.0 + 0.0);
+    match place.and_then(|place| points_text(&[place])) {
+        Some(place) => add_model(workspace, path, |model| NewThing::RoleAt(model, place)),
+        None => add_model(workspace, path, NewThing::Role),
     }
 }
 

@@ -1,8 +1,10 @@
 //! Commands on the selected action of a scene.
 
+use super::playback;
 use super::scene_text::gesture;
 use crate::panels::request::Effect;
 use crate::panels::scene::SceneBase;
+use crate::panels::scene::shots::shots_of;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
@@ -156,6 +158,20 @@ pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect
 pub(in crate::panels) fn cut_to_selected(workspace: &mut Workspace) -> Option<Effect> {
     let (at, camera) = (workspace.read().scene_time(), workspace.scene.things().last()?.clone());
     gesture(workspace, "Add shot", |base| cut_to(&base.scene(), &camera, at))
+}
+
+/// Moves the playhead to the start of the next shot, or of the one before the playhead.
+pub(in crate::panels) fn go_to_shot(workspace: &mut Workspace, forward: bool) {
+    let (lanes, now) = (std::sync::Arc::clone(workspace.scene.lanes()), workspace.read().scene_time());
+    let shots = shots_of(&lanes);
+    let found = match forward {
+        true => shots.iter().find(|shot| shot.begin > now),
+        false => shots.iter().rev().find(|shot| shot.begin < now),
+    };
+    match found {
+        Some(shot) => playback::seek(workspace, shot.begin.seconds() as f32),
+        None => workspace.say(MessageSeverity::Info, "There is no shot on that side"),
+    }
 }
 
 /// Selects the next or the previous action that has a bar.

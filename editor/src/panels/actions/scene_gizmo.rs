@@ -1,6 +1,7 @@
 //! The gizmo of the selected things of a scene: a drag becomes a new text of the script.
 
 use super::scene_camera::distance_of_look;
+use super::scene_ground::heights_on_ground;
 use crate::panels::request::Effect;
 use crate::panels::scene::{SceneBase, ScriptChange};
 use crate::panels::status::MessageSeverity;
@@ -81,6 +82,8 @@ pub(super) fn send(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
 /// Ends the drag.
 pub(super) fn end(workspace: &mut Workspace) {
     workspace.stage.set_base(None);
+    workspace.stage.set_line_base(None);
+    workspace.stage.set_heights(None);
 }
 
 fn text(workspace: &mut Workspace) -> Result<ScriptChange, GestureRefusal> {
@@ -102,8 +105,16 @@ fn text(workspace: &mut Workspace) -> Result<ScriptChange, GestureRefusal> {
         .zip(gizmo.before())
         .map(|(drag, before)| (drag.bone as usize, drag.to_parent, before.to_parent))
         .collect();
+    let keeps_ground = tool == Tool::Move && workspace.settings.tools.ground;
+    if keeps_ground && workspace.stage.heights().is_none() {
+        workspace.stage.set_heights(Some(heights_on_ground(&scene, time.seconds())));
+    }
     let mut script = Arc::clone(&base.script);
-    for (thing, now, before) in moved {
+    for (thing, mut now, before) in moved {
+        let height = workspace.stage.heights().filter(|_| keeps_ground);
+        if let Some(height) = height.and_then(|heights| heights.get(thing).copied().flatten()) {
+            now.translation.y = height;
+        }
         let text = thing_text(&base, &script, (thing, time), tool, [now, before])?;
         if *text != **script.tree().text() {
             script = Arc::new(read(text)?);
@@ -215,7 +226,12 @@ fn set(script: &StageScript, id: &str, attribute: &str, value: &str) -> Result<S
     Ok(splices.apply(tree.text()))
 }
 
-fn read(text: String) -> Result<StageScript, GestureRefusal> {
+/// Reads a script.
+///
+/// # Errors
+///
+/// Its first error.
+pub(super) fn read(text: String) -> Result<StageScript, GestureRefusal> {
     StageScript::read(text)
         .map_err(|errors| GestureRefusal(errors.first().map_or(String::new(), |error| error.text())))
 }

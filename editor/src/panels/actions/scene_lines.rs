@@ -1,7 +1,7 @@
 //! Lines and paths of a scene: drawn, erased, followed.
 
 use super::scene_text::{self, gesture};
-use super::tools;
+use super::{pose_line, tools};
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::panels::request::Effect;
 use crate::panels::scene::{LineRequest, NewThing, line_named};
@@ -49,6 +49,7 @@ pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<
     match answer {
         LineAnswer::Drawn(LineUse::Path, stroke) => draw_path(workspace, &stroke),
         LineAnswer::Drawn(LineUse::Note, stroke) => draw_note(workspace, &stroke),
+        LineAnswer::Drawn(LineUse::Pose, stroke) => pose_line::pose(workspace, &stroke),
         LineAnswer::Erased(places) => erase(workspace, &places),
         LineAnswer::NoGround => {
             workspace.say(MessageSeverity::Info, "There is no ground above the horizon");
@@ -191,7 +192,12 @@ fn edit_lines(
     }
 }
 
-fn lines_edit(
+/// Returns the edit of the file of lines.
+///
+/// # Errors
+///
+/// The reason why there is none.
+pub(super) fn lines_edit(
     scene: &SceneView,
     label: &str,
     change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,

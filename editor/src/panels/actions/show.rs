@@ -44,6 +44,7 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     tools::update_path(workspace);
     let scene = workspace.model.view().and_then(|view| view.scene.clone());
     workspace.scene.update_lines(scene.as_deref());
+    tools::show_points(workspace);
 }
 
 /// Shows a newer view of the document. If it is of another model, plays the first take that moves from its start.

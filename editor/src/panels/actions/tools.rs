@@ -9,6 +9,7 @@ use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::motion::guess_hips;
 use dragonfly_picture::gizmo::{GizmoSettings, GizmoSpace, Tool};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Chooses the transformation of the gizmo, or only to select. Drawing lines ends.
@@ -114,6 +115,15 @@ pub(super) fn update_path(workspace: &mut Workspace) {
     if changed {
         workspace.tools.show_path_keys();
     }
+}
+
+/// Gives the points of selected paths and lines to the control that drags them; none while lines are hidden.
+pub(super) fn show_points(workspace: &mut Workspace) {
+    let points = match workspace.settings.look.lines {
+        true => Arc::clone(workspace.scene.lines().points()),
+        false => Arc::default(),
+    };
+    workspace.tools.controls_mut().points_mut().show_points(&points);
 }
 
 /// Reports why a pose cannot be changed.

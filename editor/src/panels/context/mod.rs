@@ -113,6 +113,8 @@ pub struct PanelContext<'a> {
     pub camera: Camera,
     /// The viewport, points.
     pub viewport: Rect,
+    /// The rectangle of the second view of a scene, points; `None` without one.
+    pub second_view: Option<egui::Rect>,
     /// The tools of the viewport, their drag, motion path and IK.
     pub tools: &'a ToolState,
     /// The drag in progress, whichever panel it belongs to.
@@ -158,7 +160,7 @@ impl<'a> PanelContext<'a> {
     }
 
     /// Returns the folder of the file of the model; `None` for one that is in no file.
-    pub(super) fn model_folder(&self) -> Option<PathBuf> {
+    pub(crate) fn model_folder(&self) -> Option<PathBuf> {
         let view = self.view?;
         let path = view.file.path.as_deref().or(view.loaded.path.as_deref())?;
         path.parent().map(Path::to_owned)

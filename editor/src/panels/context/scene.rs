@@ -3,6 +3,7 @@
 use super::PanelContext;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
+use dragonfly_picture::LineHandle;
 use glam::Vec3;
 
 /// Distance from a frame within which a time is that frame, frames.
@@ -20,6 +21,17 @@ impl<'a> PanelContext<'a> {
         self.tools.controls().line().add_draft(&mut points);
         out.clear();
         out.extend(points.iter().map(|point| point.as_vec3()));
+    }
+
+    /// Writes the points of paths and lines that can be dragged.
+    pub fn line_handles(&self, out: &mut Vec<LineHandle>) {
+        let points = self.tools.controls().points();
+        out.clear();
+        out.extend(points.points().iter().enumerate().map(|(index, point)| LineHandle {
+            place: point.place.as_vec3(),
+            arm: point.arm.map(|arm| arm.as_vec3()),
+            is_marked: points.is_marked(index),
+        }));
     }
 
     /// Returns the exact time of the playhead in the scene.

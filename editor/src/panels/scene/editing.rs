@@ -1,8 +1,9 @@
 //! The scene as it is edited: what is selected, hidden and locked, its lanes, and the newest text.
 
 use super::follow::follow_action;
-use super::line_editing::LineEditing;
+use super::line_editing::{LineEditing, MarkedThings};
 use super::request::ScriptChange;
+use super::sounds::SceneSounds;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::lanes::SceneLanes;
@@ -32,6 +33,7 @@ pub struct SceneEditing {
     shown: Option<(Arc<StageScript>, Arc<StagePlan>)>,
     lanes: Arc<SceneLanes>,
     lines: LineEditing,
+    sounds: SceneSounds,
     /// The newest text that was sent and not answered yet.
     sent: Option<SentText>,
     /// The gesture in progress, with the text at its start.
@@ -62,6 +64,7 @@ impl Default for SceneEditing {
             shown: None,
             lanes: Arc::default(),
             lines: LineEditing::default(),
+            sounds: SceneSounds::default(),
             sent: None,
             gesture: None,
             typing: None,
@@ -131,6 +134,15 @@ impl SceneEditing {
         &self.lanes
     }
 
+    /// Returns the sounds, as far as they were read.
+    pub fn sounds(&self) -> &SceneSounds {
+        &self.sounds
+    }
+
+    pub(in crate::panels) fn sounds_mut(&mut self) -> &mut SceneSounds {
+        &mut self.sounds
+    }
+
     /// Returns the lines as they are edited.
     pub fn lines(&self) -> &LineEditing {
         &self.lines
@@ -142,7 +154,8 @@ impl SceneEditing {
 
     /// Adapts what is drawn of lines and paths to the scene and the selection.
     pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>) {
-        self.lines.update(scene, &self.things);
+        let (selected, hidden, locked) = (&*self.things, &self.hidden, &self.locked);
+        self.lines.update(scene, MarkedThings { selected, hidden, locked });
     }
 
     /// Returns whether a gesture is a word that someone types.
@@ -218,7 +231,7 @@ impl SceneEditing {
 
     /// Forgets everything: another document is open.
     pub(in crate::panels) fn reset(&mut self) {
-        *self = Self { ripple: self.ripple, ..Self::default() };
+        *self = Self { ripple: self.ripple, sounds: self.sounds.cleared(), ..Self::default() };
     }
 
     /// Adapts to a newer view.

@@ -1,6 +1,8 @@
 //! Drawn lines as they are edited: which one is selected, which are hidden, and how lines and paths are drawn.
 
 use super::line_look::{line_looks, path_looks};
+use super::path_handles::path_handles;
+use crate::control::path_points::PathPoint;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
 use dragonfly_document::SceneView;
@@ -16,7 +18,39 @@ pub struct LineEditing {
     hidden: BTreeSet<Box<str>>,
     /// Lines and paths as they are drawn, and the state they were made from.
     looks: Arc<[LineLook]>,
+    /// Points that can be dragged.
+    points: Arc<[PathPoint]>,
     made_from: Option<LooksBase>,
+}
+
+/// The things that are selected, hidden and locked, by their ids.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct ThingMarks {
+    pub(super) selected: Vec<Box<str>>,
+    pub(super) hidden: BTreeSet<Box<str>>,
+    pub(super) locked: BTreeSet<Box<str>>,
+}
+
+/// The same, borrowed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MarkedThings<'a> {
+    pub(super) selected: &'a [Box<str>],
+    pub(super) hidden: &'a BTreeSet<Box<str>>,
+    pub(super) locked: &'a BTreeSet<Box<str>>,
+}
+
+impl MarkedThings<'_> {
+    fn is_same(&self, marks: &ThingMarks) -> bool {
+        self.selected == marks.selected && *self.hidden == marks.hidden && *self.locked == marks.locked
+    }
+
+    fn to_marks(self) -> ThingMarks {
+        ThingMarks {
+            selected: self.selected.to_vec(),
+            hidden: self.hidden.clone(),
+            locked: self.locked.clone(),
+        }
+    }
 }
 
 /// Everything that the drawing of lines is made from.
@@ -24,19 +58,19 @@ pub struct LineEditing {
 struct LooksBase {
     lines: Option<Arc<DrawnLines>>,
     plan: Option<Arc<StagePlan>>,
-    things: Vec<Box<str>>,
+    things: ThingMarks,
     selected: Option<Box<str>>,
     hidden: BTreeSet<Box<str>>,
 }
 
 impl LooksBase {
     /// Returns whether nothing has changed since. Allocates nothing.
-    fn is_same(&self, scene: Option<&SceneView>, things: &[Box<str>], lines: &LineEditing) -> bool {
+    fn is_same(&self, scene: Option<&SceneView>, things: MarkedThings<'_>, lines: &LineEditing) -> bool {
         let of_lines = |lines: Option<&Arc<DrawnLines>>| lines.map(Arc::as_ptr);
         let of_plan = |plan: Option<&Arc<StagePlan>>| plan.map(Arc::as_ptr);
         of_lines(self.lines.as_ref()) == of_lines(scene.and_then(|scene| scene.lines.as_ref()))
             && of_plan(self.plan.as_ref()) == of_plan(scene.and_then(|scene| scene.plan.as_ref()))
-            && *self.things == *things
+            && things.is_same(&self.things)
             && (&self.selected, &self.hidden) == (&lines.selected, &lines.hidden)
     }
 }
@@ -67,6 +101,11 @@ impl LineEditing {
         &self.looks
     }
 
+    /// Returns the points of what is selected, which can be dragged.
+    pub fn points(&self) -> &Arc<[PathPoint]> {
+        &self.points
+    }
+
     pub(in crate::panels) fn select(&mut self, line: Option<Box<str>>) {
         self.selected = line;
     }
@@ -80,25 +119,30 @@ impl LineEditing {
     }
 
     /// Adapts what is drawn to the scene and the selected things. Does nothing if nothing changed.
-    pub(in crate::panels) fn update(&mut self, scene: Option<&SceneView>, things: &[Box<str>]) {
+    pub(super) fn update(&mut self, scene: Option<&SceneView>, things: MarkedThings<'_>) {
         if self.made_from.as_ref().is_some_and(|base| base.is_same(scene, things, self)) {
             return;
         }
         let base = LooksBase {
             lines: scene.and_then(|scene| scene.lines.clone()),
             plan: scene.and_then(|scene| scene.plan.clone()),
-            things: things.to_vec(),
+            things: things.to_marks(),
             selected: self.selected.clone(),
             hidden: self.hidden.clone(),
         };
         let mut looks = Vec::new();
         let script = scene.and_then(|scene| scene.script.as_ref());
         if let (Some(script), Some(plan)) = (script, &base.plan) {
-            looks.extend(path_looks(script, plan, &base.things));
+            looks.extend(path_looks(script, plan, things));
         }
         if let Some(lines) = &base.lines {
             looks.extend(line_looks(lines, |name| self.is_hidden(name), self.selected()));
         }
+        let editable = |id: &&str| !things.hidden.contains(*id) && !things.locked.contains(*id);
+        let paths = things.selected.iter().map(|id| &**id).filter(editable);
+        let line = self.selected().filter(|line| !self.is_hidden(line));
+        let script = script.map(|script| &**script);
+        self.points = path_handles(script, base.lines.as_deref(), paths, line);
         (self.looks, self.made_from) = (looks.into(), Some(base));
     }
 }

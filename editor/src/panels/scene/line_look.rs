@@ -1,6 +1,6 @@
 //! How lines and paths look in the viewport.
 
-use super::line_editing::line_name;
+use super::line_editing::{MarkedThings, line_name};
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::time::StageTime;
@@ -13,6 +13,11 @@ use std::sync::Arc;
 /// Colors of paths, and of the selected path.
 const PATH: [u8; 3] = [46, 180, 150];
 const SELECTED: [u8; 3] = [240, 150, 40];
+/// Color of the parts that bend too much for the stride of those that follow.
+const TIGHT: [u8; 3] = [230, 40, 40];
+
+/// Least radius of a bend, as a part of the distance of a cycle of the take that follows it.
+const LEAST_RADIUS: f64 = 0.3;
 
 /// Width of paths, and what a selected line is wider, points.
 const WIDTH: f32 = 2.5;
@@ -40,23 +45,64 @@ pub(super) fn line_looks(
     seen.map(|(name, line)| LineLook::of_line(line, wider(&name))).collect()
 }
 
-/// Returns the paths of a scene as they are drawn: arrows each half a meter, and a tick at each second of those that follow it.
-pub(super) fn path_looks(script: &StageScript, plan: &StagePlan, selected: &[Box<str>]) -> Vec<LineLook> {
+/// Returns the paths of a scene as they are drawn, without the hidden ones: arrows each half a meter, a tick at each second of those that follow
+/// it, a dot where a foot of theirs lands, and in red the parts that bend too much for their stride.
+pub(super) fn path_looks(script: &StageScript, plan: &StagePlan, things: MarkedThings<'_>) -> Vec<LineLook> {
     let paths = plan.things().iter().filter_map(|thing| Some((thing, thing.path.as_ref()?)));
-    paths
-        .map(|(thing, path)| {
-            let is_selected = selected.contains(&thing.id);
-            LineLook {
-                points: along(path, STEP).iter().map(|[at, _]| *at).collect(),
-                ink: LineInk::new(if is_selected { SELECTED } else { PATH }, WIDTH),
-                opacity: if is_selected { 1.0 } else { 0.8 },
-                shown: [None; 2],
-                of: None,
-                arrows: along(path, ARROWS).into_iter().skip(1).collect(),
-                ticks: ticks(script, plan, &thing.id),
-            }
-        })
-        .collect()
+    let mut looks = Vec::new();
+    for (thing, path) in paths.filter(|(thing, _)| !things.hidden.contains(&thing.id)) {
+        let is_selected = things.selected.contains(&thing.id);
+        let followers = Follower::all(script, plan, &thing.id);
+        let whole = LineLook {
+            points: along(path, STEP).iter().map(|[at, _]| *at).collect(),
+            ink: LineInk::new(if is_selected { SELECTED } else { PATH }, WIDTH),
+            opacity: if is_selected { 1.0 } else { 0.8 },
+            shown: [None; 2],
+            of: None,
+            arrows: along(path, ARROWS).into_iter().skip(1).collect(),
+            ticks: followers.iter().flat_map(|follower| follower.ticks(plan)).take(MOST).collect(),
+            dots: followers.iter().flat_map(|follower| follower.feet(plan)).take(MOST).collect(),
+        };
+        let strides = followers.iter().filter_map(|own| plan.stride_on_path(own.thing, own.action));
+        let least = LEAST_RADIUS * strides.fold(0.0, f64::max);
+        let red = |points: Vec<Vec3>| LineLook {
+            points: points.into(),
+            ink: LineInk::new(TIGHT, WIDTH + 1.5),
+            opacity: 1.0,
+            arrows: Arc::default(),
+            ticks: Arc::default(),
+            dots: Arc::default(),
+            ..whole.clone()
+        };
+        let tight: Vec<LineLook> = tight_parts(path, least).into_iter().map(red).collect();
+        looks.push(whole);
+        looks.extend(tight);
+    }
+    looks
+}
+
+/// Returns the parts of a path whose radius is below `least` meters, measured over half of that.
+fn tight_parts(path: &StagePath, least: f64) -> Vec<Vec<Vec3>> {
+    if least <= 0.0 {
+        return Vec::new();
+    }
+    let mut parts: Vec<Vec<Vec3>> = Vec::new();
+    let count = ((path.length() / STEP).round().max(1.0) as usize).min(MOST);
+    let mut was_tight = false;
+    for place in 0..=count {
+        let distance = path.length() * place as f64 / count as f64;
+        let is_tight = path.radius(distance, 0.5 * least) < least;
+        if is_tight && !was_tight {
+            // From the place before, so that a bend between two places is seen, too.
+            let before = path.length() * place.saturating_sub(1) as f64 / count as f64;
+            parts.push(vec![path.at(before).position.as_vec3()]);
+        }
+        if let Some(part) = parts.last_mut().filter(|_| is_tight || was_tight) {
+            part.push(path.at(distance).position.as_vec3());
+        }
+        was_tight = is_tight;
+    }
+    parts
 }
 
 /// Returns places and directions on a path at about this distance from each other, its ends among them.
@@ -66,24 +112,47 @@ fn along(path: &StagePath, step: f64) -> Vec<[Vec3; 2]> {
     (0..=count).map(at).map(|spot| [spot.position.as_vec3(), spot.direction.as_vec3()]).collect()
 }
 
-/// Returns where those that follow a path are at each whole second since they began, and where they go.
-fn ticks(script: &StageScript, plan: &StagePlan, path: &str) -> Arc<[[Vec3; 2]]> {
-    let mut found = Vec::new();
-    for (action, times) in plan.schedule().times().iter().enumerate() {
-        let element = script.element(action);
-        let thing = element.value("who").and_then(|who| plan.thing_called(who));
-        let follows = element.row.name == "move" && element.value("path") == Some(path);
-        let Some(thing) = thing.filter(|_| follows) else { continue };
-        let begin = times.begin;
-        let seconds = ((times.end - begin).seconds().floor().max(0.0) as usize).min(MOST);
-        for second in 1..=seconds {
-            let time = begin + StageTime::from_seconds(second as f64);
-            let place = |time| plan.placement(thing, time).map(|place| place.position);
-            let before = time - StageTime::from_seconds(MOMENT);
-            if let (Some(from), Some(at)) = (place(before), place(time)) {
-                found.push([at.as_vec3(), (at - from).normalize_or_zero().as_vec3()]);
-            }
+/// An action that follows a path.
+struct Follower {
+    thing: usize,
+    action: usize,
+    /// Its begin and its end.
+    times: [StageTime; 2],
+}
+
+impl Follower {
+    /// Returns all actions that follow the path called `path`.
+    fn all(script: &StageScript, plan: &StagePlan, path: &str) -> Vec<Self> {
+        let mut found = Vec::new();
+        for (action, times) in plan.schedule().times().iter().enumerate() {
+            let element = script.element(action);
+            let thing = element.value("who").and_then(|who| plan.thing_called(who));
+            let follows = element.row.name == "move" && element.value("path") == Some(path);
+            found.extend(thing.filter(|_| follows).map(|thing| Self {
+                thing,
+                action,
+                times: [times.begin, times.end],
+            }));
         }
+        found
     }
-    found.into()
+
+    /// Returns where the thing is at each whole second since the start, and in which direction it goes.
+    fn ticks(&self, plan: &StagePlan) -> Vec<[Vec3; 2]> {
+        let [begin, end] = self.times;
+        let seconds = ((end - begin).seconds().floor().max(0.0) as usize).min(MOST);
+        let place = |time| plan.placement(self.thing, time).map(|place| place.position);
+        (1..=seconds)
+            .filter_map(|second| {
+                let time = begin + StageTime::from_seconds(second as f64);
+                let (from, at) = (place(time - StageTime::from_seconds(MOMENT))?, place(time)?);
+                Some([at.as_vec3(), (at - from).normalize_or_zero().as_vec3()])
+            })
+            .collect()
+    }
+
+    /// Returns where its feet land.
+    fn feet(&self, plan: &StagePlan) -> impl Iterator<Item = Vec3> {
+        plan.footprints(self.thing, self.action).into_iter().map(|print| print.position.as_vec3())
+    }
 }

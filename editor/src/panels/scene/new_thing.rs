@@ -10,6 +10,8 @@ use std::sync::Arc;
 pub enum NewThing {
     /// A figure with takes: its model, relative to the folder of the script.
     Role(String),
+    /// A figure, and its place as scripts have it.
+    RoleAt(String, String),
     /// An object: its model, relative to the folder of the script.
     Prop(String),
     /// A camera in front of the scene.
@@ -32,7 +34,7 @@ impl NewThing {
     /// Returns the label of the edit.
     pub fn label(&self) -> &'static str {
         match self {
-            Self::Role(_) => "Add role",
+            Self::Role(_) | Self::RoleAt(..) => "Add role",
             Self::Prop(_) => "Add prop",
             Self::Camera => "Add camera",
             Self::Light => "Add light",
@@ -51,6 +53,9 @@ impl NewThing {
                 // Next to each other, not inside of each other.
                 let roles = tree.elements().iter().filter(|element| element.row.name == "role").count();
                 named("role", stem(model)).with("model", model.as_str()).with("at", format!("{roles} 0 0"))
+            }
+            Self::RoleAt(model, place) => {
+                named("role", stem(model)).with("model", model.as_str()).with("at", place.as_str())
             }
             Self::Prop(model) => named("prop", stem(model)).with("model", model.as_str()).with("at", "0 0 0"),
             Self::Camera => {

@@ -3,6 +3,7 @@
 use super::SceneBase;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StagePlan, StageScene};
+use dragonfly_document::SceneView;
 use dragonfly_document::history::Gesture;
 use egui::Pos2;
 use std::sync::Arc;
@@ -22,6 +23,10 @@ pub struct SceneViewport {
     shown: Option<ShownThings>,
     /// The script at the start of the drag in progress.
     base: Option<SceneBase>,
+    /// The scene at the start of the drag of a point of a line.
+    line_base: Option<Arc<SceneView>>,
+    /// The heights at which things are on the ground, at the start of a drag.
+    heights: Option<Vec<Option<f32>>>,
     /// The gesture that moves a camera, which is one step.
     camera_drag: Option<Gesture>,
 }
@@ -97,6 +102,26 @@ impl SceneViewport {
     /// Sets the script at the start of a drag; `None` at its end.
     pub(in crate::panels) fn set_base(&mut self, base: Option<SceneBase>) {
         self.base = base;
+    }
+
+    /// Returns the scene at the start of the drag of a point of a line.
+    pub(in crate::panels) fn line_base(&self) -> Option<&Arc<SceneView>> {
+        self.line_base.as_ref()
+    }
+
+    /// Sets the scene at the start of the drag of a point of a line; `None` at its end.
+    pub(in crate::panels) fn set_line_base(&mut self, scene: Option<Arc<SceneView>>) {
+        self.line_base = scene;
+    }
+
+    /// Returns the heights at which things are on the ground, meters, as they were at the start of the drag in progress.
+    pub(in crate::panels) fn heights(&self) -> Option<&[Option<f32>]> {
+        self.heights.as_deref()
+    }
+
+    /// Sets the heights at which things are on the ground; `None` at the end of a drag.
+    pub(in crate::panels) fn set_heights(&mut self, heights: Option<Vec<Option<f32>>>) {
+        self.heights = heights;
     }
 
     /// Returns the gesture that moves a camera.

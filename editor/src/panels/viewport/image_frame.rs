@@ -9,9 +9,13 @@ const SAFE: [f32; 2] = [0.93, 0.9];
 
 /// Draws the edges of the image and darkens what is outside of it; nothing while the viewport looks through the free camera.
 pub(super) fn show(ui: &Ui, rect: Rect, context: &PanelContext<'_>) {
-    if *context.through == ThroughCamera::Free {
-        return;
+    if *context.through != ThroughCamera::Free {
+        frame(ui, rect, context);
     }
+}
+
+/// Draws the edges of the image of a camera of the scene in a rectangle, and darkens what is outside of it.
+pub(super) fn frame(ui: &Ui, rect: Rect, context: &PanelContext<'_>) {
     let Some(script) = context.scene().and_then(|scene| scene.script.as_ref()) else { return };
     let image = image_of(rect, script.size());
     let painter = ui.painter().with_clip_rect(rect);

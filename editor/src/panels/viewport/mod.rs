@@ -7,6 +7,7 @@ mod ik;
 mod image_frame;
 mod overlay;
 mod readout;
+mod second;
 mod toolbar;
 mod tools;
 
@@ -45,7 +46,7 @@ impl Panel for Viewport {
     }
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let rect = ui.max_rect();
+        let rect = second::show(ui, ui.max_rect(), context, requests);
         requests.push(Request::Viewport(rect));
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));

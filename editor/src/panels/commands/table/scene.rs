@@ -1,12 +1,13 @@
 //! Scenes: things of the cast, actions of the timeline.
 
 use super::*;
-use crate::panels::actions::{scene, scene_clips, scene_lines, scene_text};
+use crate::panels::actions::{scene, scene_clips, scene_ground, scene_lines, scene_text};
 use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
 
 commands! {
     NewScene => When::Always, "New scene of two roles…", [], "Chooses a model, writes a scene with two roles of it next to its file, and opens it (project, script, movie)", |w| Some(Effect::Choose(FileChoice::NewScene, w.read().model_folder()));
+    DemoScene => When::Always, "New scene with the built-in model…", [], "Chooses a folder, writes the built-in model and a scene with two roles of it there, and opens the scene", |w| Some(Effect::Choose(FileChoice::DemoScene, w.read().model_folder()));
     ProjectFromScene => When::Scene, "New project from this scene", [], "Writes a project (.meproj) and a file for drawn lines next to the script, and opens the project", scene_lines::project_from_scene;
     AddRole => When::Scene, "Add role…", [], "Adds a figure to the scene: a model whose takes it can play", |w| Some(Effect::Choose(FileChoice::Role, w.read().model_folder()));
     AddProp => When::Scene, "Add prop…", [], "Adds an object to the scene: a model that stands somewhere or is carried", |w| Some(Effect::Choose(FileChoice::Prop, w.read().model_folder()));
@@ -19,8 +20,12 @@ commands! {
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected line of the project", scene_lines::delete;
     SceneRename => When::Thing, "Rename thing", [], "Renames the selected thing wherever the script names it", |w| { scene::rename(w); None };
+    DropToGround => When::Thing, "Drop to the ground", [], "Moves the selected roles, props and marks up or down so that they stand on the ground", scene_ground::drop_selected;
+    ToggleGroundSnap => When::Always, "Snap to the ground", [], "Keeps roles, props and marks on the ground while they are moved", |w| { scene_ground::toggle(w); None };
     CutHere => When::Scene, "Cut to the next camera here", [], "Inserts a shot of the next camera at the playhead", scene_clips::cut_to_next;
     CutToCamera => When::Thing, "Cut to this camera here", [], "Inserts a shot of the selected camera at the playhead", scene_clips::cut_to_selected;
+    PreviousShot => When::Scene, "Go to previous shot", [], "Moves the playhead to the start of the shot before it", |w| { scene_clips::go_to_shot(w, false); None };
+    NextShot => When::Scene, "Go to next shot", [], "Moves the playhead to the start of the next shot", |w| { scene_clips::go_to_shot(w, true); None };
     ClipToPlayhead => When::Clip, "Move action to playhead", [], "Lets the selected action begin at the playhead", scene_clips::to_playhead;
     ClipEarlier => When::Clip, "Move action a frame earlier", [], "Moves the selected action one frame back", |w| scene_clips::nudge(w, -1), repeats;
     ClipLater => When::Clip, "Move action a frame later", [], "Moves the selected action one frame forward", |w| scene_clips::nudge(w, 1), repeats;

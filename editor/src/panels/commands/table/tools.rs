@@ -3,7 +3,7 @@
 use super::*;
 use crate::control::Catch;
 use crate::control::line::{LineSurface, LineUse};
-use crate::panels::actions::{scene_lines, tools};
+use crate::panels::actions::{pose_line, scene_lines, tools};
 use dragonfly_picture::gizmo::GizmoSpace;
 use dragonfly_picture::gizmo::Pivot;
 use dragonfly_picture::gizmo::Tool;
@@ -15,8 +15,9 @@ commands! {
     ToolScale => When::Always, "Scale", [key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { tools::choose(w, Some(Tool::Scale)); None };
     ToolLine => When::Scene, "Draw lines", [key(NONE, Key::D)], "Draws lines of the project: drag freehand, with Shift straight; click corners and end with Enter; Ctrl erases", |w| { scene_lines::choose(w, LineUse::Note); None };
     ToolPath => When::Scene, "Draw a path", [key(SHIFT, Key::N)], "Draws a path on the ground that roles can follow: drag freehand, with Shift straight; click corners and end with Enter", |w| { scene_lines::choose(w, LineUse::Path); None };
-    LinesOnGround => When::Always, "Draw on the ground", [], "Draws lines on the ground", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::Ground); None };
-    LinesInView => When::Always, "Draw in the view", [], "Draws lines in the plane through the point that the camera looks at", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::View); None };
+    PoseLine => When::BoneInTake, "Draw a pose line", [], "Lays the selected chain of bones along a stroke in the view, its line of action; D draws it while a model is open", |w| { pose_line::choose(w); None };
+    LinesOnGround => When::Scene, "Draw on the ground", [], "Draws lines on the ground", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::Ground); None };
+    LinesInView => When::Scene, "Draw in the view", [], "Draws lines in the plane through the point that the camera looks at", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::View); None };
     MoveNow => When::Movable, "Move with the mouse", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };
     RotateNow => When::Movable, "Rotate with the mouse", [], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None };
     ScaleNow => When::Movable, "Scale with the mouse", [], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None };

@@ -10,6 +10,7 @@ mod paint;
 mod ruler;
 mod sheet;
 mod snap;
+mod waveform;
 
 use super::super::context::PanelContext;
 use super::super::dope;

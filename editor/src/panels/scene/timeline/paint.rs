@@ -2,6 +2,8 @@
 
 use super::lane_layout::{SceneHit, fade_handles};
 use super::sheet::SceneSheet;
+use super::waveform;
+use crate::panels::scene::SceneSound;
 use crate::panels::theme::Theme;
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane};
 use dragonfly_picture::between;
@@ -107,6 +109,7 @@ fn draw_bar(
     painter.rect_filled(rect, radius, theme.sunken);
     let fill = color.gamma_multiply(if is_hovered || is_selected { 0.42 } else { 0.30 });
     painter.rect_filled(rect, radius, fill);
+    waveform::show(painter, sheet, bar, rect, color.gamma_multiply(0.8));
     fades(painter, sheet, bar, rect, color);
     for time in bar.repetitions(MOST_REPETITIONS) {
         let x = sheet.scale.x_of(time.seconds() as f32);
@@ -135,7 +138,13 @@ fn draw_bar(
     }
     let shown = rect.intersect(sheet.canvas);
     if shown.width() > 18.0 {
-        label(painter, shown, &bar.label, if is_dim { theme.faint } else { theme.text });
+        let color = if is_dim { theme.faint } else { theme.text };
+        match waveform::sound_of(sheet, bar) {
+            Some(SceneSound::Problem(reason)) => label(painter, shown, reason, theme.warning),
+            Some(SceneSound::Reading | SceneSound::Read(_)) | None => {
+                label(painter, shown, &bar.label, color)
+            }
+        }
     }
     if is_hovered || is_selected {
         for (_, x) in fade_handles(bar, rect, sheet.scale).into_iter().flatten() {

@@ -1,0 +1,54 @@
+//! Points of paths, moved.
+
+use super::draft::ScriptDraft;
+use super::scene::{GestureRefusal, refused};
+use crate::stage::line::points_text;
+use crate::stage::script::StageScript;
+use crate::stage::table::points;
+use glam::DVec3;
+use std::ops::Range;
+
+/// Moves the point at `index` of a path of the cast to `position`, meters, to 0.1 mm. All other points stay as they are written.
+///
+/// # Errors
+///
+/// There is no such path, it has no such point of its own, or a number is not finite.
+pub fn move_path_point(
+    script: &StageScript,
+    path: &str,
+    index: usize,
+    position: DVec3,
+) -> Result<String, GestureRefusal> {
+    let tree = script.tree();
+    let is_path = |id: Option<&str>| id == Some(path);
+    let element =
+        tree.elements().iter().position(|element| element.row.name == "path" && is_path(element.value("id")));
+    let Some(element) = element else { return refused(format!("No path of the cast has the id \"{path}\"")) };
+    let Some(written) = tree.elements()[element].value("points") else {
+        return refused(format!("{path} follows a line: its points are those of the line"));
+    };
+    let Some(range) = point_range(written, index) else {
+        return refused(format!("{path} has no such point"));
+    };
+    if position.abs().max_element() >= 1e6 {
+        return refused("The position is too far away");
+    }
+    let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
+    let value = format!("{}{point}{}", &written[..range.start], &written[range.end..]);
+    ScriptDraft::of(tree).with(&[(element, "points", Some(value))])?.finish()
+}
+
+/// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.
+pub fn written_points(script: &StageScript, path: &str) -> Option<Vec<DVec3>> {
+    let element = script.things().find(|element| element.value("id") == Some(path))?;
+    points(element.value("points").filter(|_| element.row.name == "path")?)
+}
+
+/// Returns where the three numbers of a point are in a list of numbers with blanks between them.
+fn point_range(text: &str, index: usize) -> Option<Range<usize>> {
+    let start_of = |number: &str| number.as_ptr() as usize - text.as_ptr() as usize;
+    let mut numbers = text.split_ascii_whitespace().skip(index.checked_mul(3)?);
+    let first = numbers.next()?;
+    let last = numbers.nth(1)?;
+    Some(start_of(first)..start_of(last) + last.len())
+}

@@ -1,0 +1,84 @@
+//! Things on the ground: while they are moved, by a command, and where a file is dropped.
+
+use super::scene_gizmo::{place_text, read};
+use super::scene_text::gesture;
+use crate::panels::request::Effect;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::stage::gesture::GestureRefusal;
+use dragonfly_document::SceneView;
+use dragonfly_picture::PosedScene;
+use dragonfly_picture::gizmo::GizmoView;
+use glam::{DVec3, Vec2};
+use std::sync::Arc;
+
+/// Least sine of the angle at which the ground is seen: nearer to the horizon, the pointer reaches too far.
+const LEAST_SLOPE: f64 = 0.01;
+
+/// Farthest place for what is dropped, in distances of the camera from the point that it looks at.
+const FARTHEST: f64 = 20.0;
+
+/// Switches whether things that are moved stay on the ground.
+pub(in crate::panels) fn toggle(workspace: &mut Workspace) {
+    workspace.settings.tools.ground ^= true;
+}
+
+/// Moves the selected things up or down so that they are on the ground.
+pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effect> {
+    let time = workspace.read().scene_time();
+    let scene = workspace.model.view()?.scene.clone()?;
+    let heights = heights_on_ground(&scene, time.seconds());
+    let selected = workspace.scene.things().iter().filter(|id| !workspace.scene.is_locked(id)).cloned();
+    let selected: Vec<Box<str>> = selected.collect();
+    gesture(workspace, "Drop to the ground", |base| {
+        let mut state = base.plan.new_scene();
+        base.plan.scene_at(time, &mut state);
+        let things = selected.iter().filter_map(|id| base.plan.thing_called(id));
+        let standing: Vec<(usize, f32)> =
+            things.filter_map(|thing| Some((thing, heights.get(thing).copied().flatten()?))).collect();
+        if standing.is_empty() {
+            return Err(GestureRefusal(
+                "Nothing that is selected can stand: choose roles, props or marks".to_owned(),
+            ));
+        }
+        let mut script = Arc::clone(&base.script);
+        for (thing, height) in standing {
+            let place = state.things[thing].transform.translation.with_y(height);
+            script = Arc::new(read(place_text(base, &script, thing, time, place)?)?);
+        }
+        Ok(script.tree().text().to_string())
+    })
+}
+
+/// Returns the height at which each thing is on the ground, meters: a prop with its lowest point at this time, a role or a mark with its place. `None` for
+/// things in the air, and for paths.
+pub(super) fn heights_on_ground(scene: &SceneView, seconds: f64) -> Vec<Option<f32>> {
+    let Some(mut posed) = PosedScene::without(scene, &[], None) else { return Vec::new() };
+    posed.pose(seconds);
+    let height = |(thing, kind): (usize, &str)| match kind {
+        "role" | "mark" => Some(0.0),
+        "prop" => {
+            let around = posed.box_of(thing);
+            let place = posed.state().things.get(thing)?.transform.translation.y;
+            Some(if around.is_empty() { 0.0 } else { place - around.min.y })
+        }
+        // Cameras, lights and effects are in the air; paths have no place.
+        _ => None,
+    };
+    posed.plan().things().iter().map(|thing| thing.kind).enumerate().map(height).collect()
+}
+
+/// Returns the place on the ground under the pointer, or under the middle of the viewport while the pointer is elsewhere; `None` where there is no ground near.
+pub(super) fn pointed(workspace: &Workspace) -> Option<DVec3> {
+    let rect = workspace.camera.viewport();
+    let corner = Vec2::new(rect.min.x, rect.min.y);
+    let size = Vec2::new(rect.width(), rect.height());
+    let inside = |at: &Vec2| rect.contains(egui::pos2(at.x, at.y));
+    let pointer = workspace.tools.controls().pointer().filter(inside);
+    let at = pointer.map_or(0.5 * size, |at| at - corner);
+    let camera = workspace.camera.camera();
+    let (origin, direction) = GizmoView::new(camera, size).ray(at.as_dvec2());
+    let along = -origin.y / direction.y;
+    let is_near = along > 0.0 && along < FARTHEST * f64::from(camera.distance);
+    let place = (origin + direction * along).with_y(0.0);
+    (direction.y.abs() > LEAST_SLOPE && is_near && place.is_finite()).then_some(place)
+}

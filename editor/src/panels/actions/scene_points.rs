@@ -1,0 +1,86 @@
+//! A drag of a point of a path or a line: a new text of the script, or of the file of lines.
+
+use super::scene_lines::lines_edit;
+use super::scene_text::change_text;
+use crate::control::path_points::{PathPoint, PathPointOwner};
+use crate::panels::request::Effect;
+use crate::panels::scene::{SceneBase, ScriptChange, line_named};
+use crate::panels::status::MessageSeverity;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::stage::gesture::{GestureRefusal, move_path_point};
+use dragonfly_anim::stage::line::DrawnLine;
+use dragonfly_document::Change;
+use dragonfly_document::SceneView;
+use dragonfly_document::edit::{Edit, EditScript};
+use dragonfly_document::history::Gesture;
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Sends the text in which a point is where the pointer put it.
+pub(super) fn send(workspace: &mut Workspace, point: &PathPoint, effects: &mut Vec<Effect>) {
+    let gesture = workspace.tools.drag().gesture().unwrap_or_else(|| workspace.dragging.new_gesture());
+    let effect = match &point.owner {
+        PathPointOwner::Path(path) => {
+            let change = path_change(workspace, path, point, gesture);
+            change.map(|change| change_text(workspace, &change))
+        }
+        PathPointOwner::Line(line) => {
+            let edit = line_edit(workspace, line, point);
+            edit.map(|edit| Some(Effect::Change(Change::Edit(Edit::EditScript(edit), Some(gesture)))))
+        }
+    };
+    match effect {
+        Ok(effect) => {
+            workspace.tools.drag_mut().begin(gesture);
+            effects.extend(effect);
+        }
+        Err(refusal) => workspace.say(MessageSeverity::Warning, refusal.to_string()),
+    }
+}
+
+fn path_change(
+    workspace: &mut Workspace,
+    path: &str,
+    point: &PathPoint,
+    gesture: Gesture,
+) -> Result<ScriptChange, GestureRefusal> {
+    let scene = open_scene(workspace)?;
+    let base = match workspace.stage.base() {
+        Some(base) => base.clone(),
+        None => SceneBase::of(&scene, workspace.scene.text(&scene))?,
+    };
+    workspace.stage.set_base(Some(base.clone()));
+    let text = move_path_point(&base.script, path, point.index, point.place)?;
+    Ok(ScriptChange { from: Arc::clone(base.text()), text, label: "Move point", gesture: Some(gesture) })
+}
+
+/// Returns the edit of the file of lines as it was when the drag began.
+fn line_edit(workspace: &mut Workspace, line: &str, point: &PathPoint) -> Result<EditScript, GestureRefusal> {
+    let scene = match workspace.stage.line_base() {
+        Some(scene) => Arc::clone(scene),
+        None => open_scene(workspace)?,
+    };
+    workspace.stage.set_line_base(Some(Arc::clone(&scene)));
+    let edit = lines_edit(&scene, "Move point", |lines| {
+        let at = line_named(lines, line)?;
+        lines.reshaped(at, &moved(&lines.list()[at], point)?)
+    });
+    edit.map_err(|reason| GestureRefusal(reason.to_owned()))
+}
+
+fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, GestureRefusal> {
+    let scene = workspace.model.view().and_then(|view| view.scene.clone());
+    scene.ok_or_else(|| GestureRefusal("No scene is open".to_owned()))
+}
+
+/// Returns the control points of a line after one of them was moved. The two that give the curve its direction at a point of the line move along with it.
+fn moved(line: &DrawnLine, point: &PathPoint) -> Option<Vec<DVec3>> {
+    let mut points = line.points.clone();
+    let by = point.place - *points.get(point.index)?;
+    let reach = if point.index.is_multiple_of(3) { 1 } else { 0 };
+    let last = (point.index + reach).min(points.len() - 1);
+    for own in &mut points[point.index.saturating_sub(reach)..=last] {
+        *own += by;
+    }
+    Some(points)
+}

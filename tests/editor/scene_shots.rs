@@ -1,0 +1,50 @@
+//! The list of shots: their begins and durations, and where a click goes.
+
+use crate::scene_bench::{FOXES, scene};
+use crate::scene_lines::run;
+use crate::workbench::Window;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::scene::shots::{shot_at, shots_of};
+use dragonfly_anim::stage::time::StageTime;
+use egui_kittest::kittest::Queryable;
+
+fn time(window: &Window) -> f32 {
+    window.state().state.read().time()
+}
+
+#[test]
+fn a_click_on_a_shot_goes_to_its_start_and_selects_it() {
+    let mut window = scene(FOXES).window();
+    let lanes = window.state().state.read().scene_editing.lines().looks().len();
+    assert_eq!(lanes, 1);
+    // The second camera is seen from the end of the first take on, which is cut at 2 s, to the end of the scene.
+    let end = window.state().state.read().scene_bounds().expect("a scene").1;
+    let last = format!("Shot 2, close, from 2.00 s, {:.2} s", end - 2.0);
+    assert!(window.query_by_label("Shot 1, wide, from 0.00 s, 2.00 s").is_some());
+    window.get_by_label(&last).click();
+    window.run_steps(3);
+    assert_eq!(time(&window), 2.0);
+    let read = window.state().state.read();
+    let shots = shots_of(read.scene_editing.lanes());
+    assert_eq!(read.scene_editing.action(), Some(shots[1].action));
+}
+
+#[test]
+fn commands_go_from_shot_to_shot() {
+    let mut window = scene(FOXES).window();
+    for (id, expected) in
+        [(Id::NextShot, 2.0), (Id::NextShot, 2.0), (Id::PreviousShot, 0.0), (Id::PreviousShot, 0.0)]
+    {
+        run(&mut window, id);
+        assert_eq!(time(&window), expected, "{id:?}");
+    }
+}
+
+#[test]
+fn the_shot_at_a_time_is_the_last_one_that_has_begun() {
+    let window = scene(FOXES).window();
+    let read = window.state().state.read();
+    let shots = shots_of(read.scene_editing.lanes());
+    let at = |seconds: f64| shot_at(shots, StageTime::from_seconds(seconds));
+    assert_eq!([at(-1.0), at(0.0), at(1.99), at(2.0), at(99.0)], [None, Some(0), Some(0), Some(1), Some(1)]);
+}
