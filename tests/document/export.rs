@@ -152,3 +152,22 @@ fn of_many_questions_at_once_the_newest_one_is_answered_and_the_others_are_left_
     // The next question is answered again.
     assert!(exporter.export(questions[7].clone()).is_ok());
 }
+
+#[test]
+fn frames_become_keys_or_files_of_one_pose_each() {
+    let (mut exporter, view) = Exporter::new("export-frames");
+    let bake = Some(12);
+    exporter.export(ExportOrder { bake, ..exporter.order("Baked.glb") }).expect("written");
+    let (baked, own) = (exporter.read("Baked.glb"), &view.takes[0]);
+    let frames = (own.length * 12.0).round() as usize + 1;
+    let most = baked.animation.takes[0].tracks.iter().map(|track| track.rotation.times.len()).max();
+    assert_eq!(most, Some(frames));
+    exporter.export(exporter.order("out/One.obj")).expect("written");
+    assert_eq!(exporter.files().iter().filter(|name| name.ends_with(".obj")).count(), 1);
+    exporter.export(ExportOrder { bake, ..exporter.order("out/Frames.obj") }).expect("written");
+    let written = exporter.files();
+    assert_eq!(
+        written.iter().filter(|name| name.starts_with("Frames") && name.ends_with(".obj")).count(),
+        frames
+    );
+}

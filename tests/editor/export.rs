@@ -62,7 +62,10 @@ fn the_dialog_shows_what_is_lost_and_sends_the_order_that_was_chosen() {
     choose(&mut window, "Content", "Skeleton and takes only");
     window.get_by_label("Each a file").click();
     window.run_steps(4);
+    choose(&mut window, "Keys", "One at each frame");
     let order = orders(&mut window).pop().expect("an order");
+    let rate = window.state().state.read().frame_rate;
+    assert_eq!(order.bake, Some(rate));
     assert_eq!(order.output.extension().and_then(|extension| extension.to_str()), Some("bvh"));
     assert_eq!((order.content, order.each, order.is_written), (ExportContent::Takes, true, false));
     // The answer to another order is not taken for this one.

@@ -126,6 +126,28 @@ pub fn export(
     export_with(model, name, &FbxOptions { preset, textures })
 }
 
+/// Plans the file `name` with a model, with the preset, the place of images and the keys that were chosen. If there are frames per
+/// second, each frame of a take gets a key; a file of OBJ has one pose, so that the frames of the first take are files.
+pub(super) fn planned(
+    format: &Format,
+    mut model: ModelData,
+    name: &str,
+    (preset, textures, bake): (Option<&str>, Option<TexturePlacement>, Option<f32>),
+) -> Result<SavePlan, String> {
+    let plan = match bake {
+        Some(rate) if *format == OBJ => write_sequence(&model, name, rate),
+        Some(rate) => {
+            for take in &mut model.animation.takes {
+                let keys = baked(take, rate).map_err(|error| format!("take {:?}: {error}", take.name))?;
+                *take = Arc::new(keys);
+            }
+            export(format, &model, name, preset, textures)
+        }
+        None => export(format, &model, name, preset, textures),
+    };
+    plan.map_err(|error| error.to_string())
+}
+
 /// Returns the placement, if the format leaves the choice.
 ///
 /// # Errors
@@ -205,19 +227,9 @@ pub fn prepare_conversion(
             missing.into_iter().map(|name| format!("the map names {name:?}, which is no bone of it")),
         );
     }
-    // A file of OBJ has one pose, so that frames are files, and are computed one by one.
-    if let Some(rate) = order.bake.filter(|_| target != OBJ) {
-        for take in &mut imported.model.animation.takes {
-            *take = Arc::new(
-                baked(take, rate).map_err(|error| failed(format!("take {:?}: {error}", take.name)))?,
-            );
-        }
-    }
-    let plan = match order.bake {
-        Some(rate) if target == OBJ => write_sequence(&imported.model, &name, rate),
-        _ => export(&target, &imported.model, &name, order.preset.as_deref(), order.textures),
-    };
-    let plan = plan.map_err(|error| failed(error.to_string()))?;
+    let takes = imported.model.animation.takes.len();
+    let choices = (order.preset.as_deref(), order.textures, order.bake);
+    let plan = planned(&target, imported.model, &name, choices).map_err(failed)?;
     let (main, beside) =
         plan.files.split_last().map_or((None, &[][..]), |(main, beside)| (Some(main), beside));
     let converted = ConvertedFile {
@@ -227,7 +239,7 @@ pub fn prepare_conversion(
         conversion: imported.conversion,
         warnings,
         lost: plan.lost.iter().map(ToString::to_string).collect(),
-        takes: imported.model.animation.takes.len(),
+        takes,
     };
     Ok(PreparedConversion { output: order.output.clone(), is_written: order.is_written, plan, converted })
 }

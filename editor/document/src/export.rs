@@ -1,6 +1,6 @@
 //! Files of other formats from a model: all of it, a part of it, or each take as a file of its own.
 
-use super::conversion::{checked_preset, checked_textures, export, write_files, written_extensions};
+use super::conversion::{checked_preset, checked_textures, planned, write_files, written_extensions};
 use super::import;
 use super::make_folder;
 use super::source::file_name;
@@ -42,6 +42,8 @@ pub struct ExportOrder {
     pub takes: Option<Vec<usize>>,
     /// Whether each take becomes a file of its own, named `Model@Take`.
     pub each: bool,
+    /// Frames per second at which each take gets a key instead of its own keys; for OBJ, a file for each frame of the first take.
+    pub bake: Option<u32>,
     /// Whether to write the files, or only to find out what would be lost.
     pub is_written: bool,
 }
@@ -117,7 +119,8 @@ pub fn export_files(model: &ModelData, order: &ExportOrder) -> Result<ExportRepo
     let mut report = ExportReport::default();
     let mut write = |path: &Path, takes: &[&Arc<Take>]| {
         let part = part(model, takes, order.content);
-        let plan = export(&format, &part, &file_name(path), order.preset.as_deref(), order.textures)
+        let choices = (order.preset.as_deref(), order.textures, order.bake.map(|rate| rate as f32));
+        let plan = planned(&format, part, &file_name(path), choices)
             .map_err(|error| format!("{}: {error}", path.display()))?;
         report.add(path, &plan);
         if order.is_written {

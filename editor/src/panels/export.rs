@@ -7,6 +7,7 @@ use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::widgets;
 use dragonfly_anim::format::Format;
+use dragonfly_anim::format::obj::OBJ;
 use dragonfly_document::{
     DocumentMessage, ExportContent, ExportOrder, ExportReport, View, export_presets, places_textures,
     written_format, written_formats,
@@ -43,6 +44,8 @@ pub(super) struct ExportDialog {
     /// Whether only the take that is shown is written.
     shown_take: bool,
     each: bool,
+    /// Whether each frame becomes a key, or a file where a file has one pose.
+    frames: bool,
     /// The order for which the losses were asked.
     asked: Option<(u64, ExportOrder)>,
 }
@@ -150,6 +153,9 @@ impl ExportDialog {
                 list.response.accessible_name("Textures");
             });
             ui.end_row();
+            ui.label("Keys");
+            ui.add_enabled_ui(self.content != ExportContent::Model, |ui| self.keys(ui, format));
+            ui.end_row();
             ui.label("Content");
             let text =
                 CONTENTS.iter().find(|(content, _)| *content == self.content).map_or("", |(_, text)| text);
@@ -181,6 +187,22 @@ impl ExportDialog {
         list.response.accessible_name("Format");
     }
 
+    /// Draws the choice between keys and frames.
+    fn keys(&mut self, ui: &mut Ui, format: Option<Format>) {
+        let texts = match format {
+            // A file has one pose.
+            Some(format) if format == OBJ => ["The first pose", "A file for each frame of the first take"],
+            _ => ["As they are", "One at each frame"],
+        };
+        let list = ComboBox::from_id_salt("keys").selected_text(texts[usize::from(self.frames)]).width(220.0);
+        let list = list.show_ui(ui, |ui| {
+            for (frames, text) in [false, true].into_iter().zip(texts) {
+                ui.selectable_value(&mut self.frames, frames, text);
+            }
+        });
+        list.response.accessible_name("Keys");
+    }
+
     fn takes(&mut self, ui: &mut Ui, context: &PanelContext<'_>) {
         ui.horizontal(|ui| {
             ui.radio_value(&mut self.shown_take, false, "All");
@@ -200,6 +222,7 @@ impl ExportDialog {
             content: self.content,
             takes: shown.map(|take| vec![take]),
             each: self.each && self.content != ExportContent::Model,
+            bake: (self.frames && self.content != ExportContent::Model).then_some(context.frame_rate),
             is_written: false,
         }
     }

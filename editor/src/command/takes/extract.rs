@@ -59,6 +59,7 @@ impl ExtractTakes {
             content,
             takes: indices,
             each: self.each,
+            bake: None,
             is_written: true,
         };
         let report = export_files(&loaded.model, &order).map_err(Failure::Input)?;
