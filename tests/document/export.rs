@@ -167,7 +167,7 @@ fn frames_become_keys_or_files_of_one_pose_each() {
     exporter.export(ExportOrder { bake, ..exporter.order("out/Frames.obj") }).expect("written");
     let written = exporter.files();
     assert_eq!(
-        written.iter().filter(|name| name.starts_with("Frames") && name.ends_with(".obj")).count(),
+        written.iter().filter(|name| name.starts_with("Frames_") && name.ends_with(".obj")).count(),
         frames
     );
 }
