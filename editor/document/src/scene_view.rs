@@ -62,7 +62,7 @@ impl SceneView {
     /// Returns the model of a thing of the plan; `None` for things without one, and while it is missing.
     pub fn model_of(&self, thing: &PlannedThing) -> Option<&Arc<LoadedModel>> {
         let script = self.script.as_ref()?;
-        let element = script.things().find(|element| element.value("id") == Some(&*thing.id))?;
+        let element = &script.tree().elements()[script.thing_element(&thing.id)?];
         match self.models.get(element.value("model")?)? {
             SceneModel::Loaded(loaded) => Some(loaded),
             SceneModel::Loading | SceneModel::Missing(_) => None,
