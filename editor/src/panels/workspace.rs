@@ -1,5 +1,6 @@
 //! Everything that panels show and commands change: one owner for each part.
 
+use super::actions::left_scene::LeftScene;
 use super::camera_state::CameraState;
 use super::compared::{CompareWith, ComparedFile};
 use super::context::PanelContext;
@@ -96,6 +97,8 @@ pub(super) struct Workspace {
     pub(super) scene: SceneEditing,
     /// The scene in the viewport.
     pub(super) stage: SceneViewport,
+    /// The state of the scene that was left last.
+    pub(super) left_scene: Option<LeftScene>,
     /// The pose library.
     pub(super) poses: PoseLibrary,
     /// The reference picture.
@@ -146,6 +149,7 @@ impl Workspace {
             export: None,
             scene: SceneEditing::default(),
             stage: SceneViewport::default(),
+            left_scene: None,
             poses: PoseLibrary::default(),
             reference: ReferenceTrack::default(),
             sound: SoundTrack::default(),

@@ -86,7 +86,7 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
 /// Pauses playback at the time shown, if it is running; with snapping on at the nearest whole frame.
 pub(in crate::panels) fn pause(workspace: &mut Workspace) {
     if workspace.player.is_playing() {
-        let (time, rate) = (workspace.player.time(), workspace.frame_rate.get());
+        let (time, rate) = (workspace.player.time(), workspace.read().frames_per_second());
         // New keys are added at the time where playback stops, and with snapping on keys are at whole frames.
         let frame = ruler::time_of(ruler::frame_of(time, rate), rate);
         stop_at(workspace, if workspace.keys.snap() { frame } else { time });
@@ -132,7 +132,8 @@ pub(in crate::panels) fn skip(workspace: &mut Workspace, seconds: f32) {
 
 /// Moves the playhead to the next or previous frame and pauses.
 pub(in crate::panels) fn step_frame(workspace: &mut Workspace, direction: i64) {
-    let time = ruler::step_frame(workspace.player.time(), direction, workspace.frame_rate.get());
+    let rate = workspace.read().frames_per_second();
+    let time = ruler::step_frame(workspace.player.time(), direction, rate);
     stop_at(workspace, time);
 }
 

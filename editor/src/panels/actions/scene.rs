@@ -1,6 +1,6 @@
 //! Scenes: selection, the newest text, things of the cast.
 
-use super::scene_text::{add, change_text};
+use super::scene_text::{add_all, change_text};
 use super::{playback, scene_camera, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
@@ -9,7 +9,7 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{DocumentMessage, View};
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 /// Commands for models and the ones with the same meaning, and the same keys, while a scene is open.
 const COUNTERPARTS: &[(Id, Id)] = &[
@@ -64,25 +64,27 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
     None
 }
 
-/// Adds a model file to the cast. It has to be below the folder of the script.
-pub(super) fn add_model(
+/// Adds model files to the cast in one step. Those that are not below the folder of the script are left out.
+pub(super) fn add_models(
     workspace: &mut Workspace,
-    path: &Path,
-    thing: impl FnOnce(String) -> NewThing,
+    paths: &[PathBuf],
+    thing: impl Fn(String) -> NewThing,
 ) -> Option<Effect> {
     let folder = workspace.read().model_folder()?;
-    match relative(&folder, path) {
-        Some(model) => add(workspace, &thing(model)),
-        None => {
-            let text = format!(
-                "{} is not in the folder of the scene: copy it to {} or below first",
-                path.file_name().unwrap_or_default().display(),
-                folder.display()
-            );
-            workspace.say(MessageSeverity::Warning, text);
-            None
+    let mut things = Vec::new();
+    for path in paths {
+        if let Some(model) = relative(&folder, path) {
+            things.push(thing(model));
+            continue;
         }
+        let text = format!(
+            "{} is not in the folder of the scene: copy it to {} or below first",
+            path.file_name().unwrap_or_default().display(),
+            folder.display()
+        );
+        workspace.say(MessageSeverity::Warning, text);
     }
+    add_all(workspace, &things)
 }
 
 /// Returns a path relative to a folder that contains it, with `/`.
@@ -121,7 +123,7 @@ pub(in crate::panels) fn fit(workspace: &mut Workspace) {
 pub(in crate::panels) fn edit_model(workspace: &mut Workspace, thing: &str) -> Option<Effect> {
     let view = workspace.model.view()?;
     let script = view.scene.as_ref()?.script.as_ref()?;
-    let element = script.things().find(|element| element.value("id") == Some(thing))?;
+    let element = &script.tree().elements()[script.thing_element(thing)?];
     let Some(model) = element.value("model").map(str::to_owned) else {
         let text = format!("A {} has no model with takes and bones", element.row.name);
         workspace.say(MessageSeverity::Info, text);

@@ -4,11 +4,11 @@ use super::scene_text::{self, gesture};
 use super::tools;
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::panels::request::Effect;
-use crate::panels::scene::{LineRequest, NewThing, line_named};
+use crate::panels::scene::{LineEraser, LineRequest, NewThing, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
-use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, points_text};
+use dragonfly_anim::stage::line::{DrawnLines, NewLine, path_points, points_text};
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use dragonfly_anim::stage::{PlannedThing, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
@@ -16,9 +16,6 @@ use dragonfly_document::{Change, SceneView};
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
 use std::sync::Arc;
-
-/// Distance from the pointer within which a line is erased, points.
-const REACH: f64 = 7.0;
 
 /// Least distance by which a path may differ from the stroke, meters.
 const PATH_TOLERANCE: f64 = 0.01;
@@ -49,12 +46,19 @@ pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<
     match answer {
         LineAnswer::Drawn(LineUse::Path, stroke) => draw_path(workspace, &stroke),
         LineAnswer::Drawn(LineUse::Note, stroke) => draw_note(workspace, &stroke),
-        LineAnswer::Erased(places) => erase(workspace, &places),
+        LineAnswer::EraserDown(at) => {
+            put_eraser(workspace, at);
+            None
+        }
+        LineAnswer::EraserMoved(at) => {
+            move_eraser(workspace, at);
+            None
+        }
+        LineAnswer::EraserUp => erase(workspace),
         LineAnswer::NoGround => {
             workspace.say(MessageSeverity::Info, "There is no ground above the horizon");
             None
         }
-        LineAnswer::Left => None,
     }
 }
 
@@ -111,26 +115,42 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
     effect
 }
 
-/// Removes the lines that are near one of these places, points from the top left of the viewport.
-fn erase(workspace: &mut Workspace, places: &[Vec2]) -> Option<Effect> {
-    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+/// Begins to erase the lines that are shown now.
+fn put_eraser(workspace: &mut Workspace, at: Vec2) {
+    let lines = workspace.read().scene().and_then(|scene| scene.lines.clone());
     let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
-    let is_near = |line: &DrawnLine| {
-        let samples = line.samples();
-        let mut seen = samples.points().iter().filter_map(|point| view.to_screen(*point));
-        seen.any(|at| places.iter().any(|place| place.as_dvec2().distance(at) <= REACH))
-    };
-    let lines = scene.lines.as_ref()?;
-    // A line that moves is elsewhere.
-    let found: Vec<usize> = (0..lines.list().len())
-        .filter(|&at| lines.list()[at].of.as_deref().is_none_or(str::is_empty) && is_near(&lines.list()[at]))
-        .collect();
+    let is_hidden = |name: &str| workspace.scene.lines().is_hidden(name);
+    let eraser = lines
+        .filter(|_| workspace.settings.look.lines)
+        .map(|lines| LineEraser::new(lines, is_hidden, view, at.as_dvec2()));
+    *workspace.scene.lines_mut().eraser_mut() = eraser;
+    move_eraser(workspace, at);
+}
+
+/// Notes the lines that the eraser touches on its way to a position.
+fn move_eraser(workspace: &mut Workspace, at: Vec2) {
+    let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
+    let time = workspace.read().scene_time();
+    if let Some(eraser) = workspace.scene.lines_mut().eraser_mut() {
+        eraser.move_to(at.as_dvec2(), &view, time);
+    }
+}
+
+/// Removes the lines that the eraser touched.
+fn erase(workspace: &mut Workspace) -> Option<Effect> {
+    let eraser = workspace.scene.lines_mut().eraser_mut().take()?;
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let (lines, found) = eraser.hits();
     if found.is_empty() {
+        return None;
+    }
+    if !scene.lines.as_ref().is_some_and(|now| Arc::ptr_eq(now, lines)) {
+        workspace.say(MessageSeverity::Info, "The lines have changed meanwhile: try again");
         return None;
     }
     edit_lines(workspace, &scene, "Erase line", |lines| {
         let all: Option<Vec<TextSplices>> = found.iter().map(|&at| lines.removed(at)).collect();
-        TextSplices::new(all?.iter().flat_map(|splices| splices.list().to_vec()).collect())
+        TextSplices::joined(all?)
     })
 }
 

@@ -1,5 +1,6 @@
 //! The start of a frame, and a newer view of the document.
 
+use super::left_scene::LeftScene;
 use super::reopened::BeforeReload;
 use super::{drags, framing, keys, layers, playback, scene, scene_camera, scope, tools, undo};
 use crate::panels::change_summary;
@@ -53,8 +54,10 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
         let before = BeforeReload::of(workspace, &view);
+        let left = LeftScene::of(workspace).or(workspace.left_scene.take());
         scene::note_waiting(workspace, &view);
         workspace.stage.reset();
+        workspace.tools.controls_mut().line_mut().choose(None);
         workspace.camera.set_through(ThroughCamera::Free);
         workspace.model.replace(view);
         workspace.selections.open(done);
@@ -63,7 +66,12 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         workspace.scene.reset();
         show_model(workspace);
         before.into_iter().for_each(|before| before.restore(workspace));
-        return scene::opened(workspace);
+        scene::opened(workspace);
+        match left {
+            Some(left) if left.is_shown(workspace) => left.restore(workspace),
+            left => workspace.left_scene = left,
+        }
+        return;
     }
     let before = workspace.model.replace(view);
     scene::follow(workspace, answered);

@@ -1,5 +1,6 @@
 //! Drawn lines as they are edited: which one is selected, which are hidden, and how lines and paths are drawn.
 
+use super::line_eraser::LineEraser;
 use super::line_look::{line_looks, path_looks};
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
@@ -14,30 +15,48 @@ pub struct LineEditing {
     /// Name of the selected line.
     selected: Option<Box<str>>,
     hidden: BTreeSet<Box<str>>,
-    /// Lines and paths as they are drawn, and the state they were made from.
+    /// Paths and lines as they are drawn.
     looks: Arc<[LineLook]>,
-    made_from: Option<LooksBase>,
+    /// The paths among them, and what they were made from.
+    paths: (Option<PathsBase>, Vec<LineLook>),
+    /// The lines among them, and what they were made from.
+    lines: (Option<LinesBase>, Vec<LineLook>),
+    /// The movement of the eraser in progress.
+    eraser: Option<LineEraser>,
 }
 
-/// Everything that the drawing of lines is made from.
+/// Everything that the drawing of paths is made from.
 #[derive(Clone, Debug)]
-struct LooksBase {
-    lines: Option<Arc<DrawnLines>>,
+struct PathsBase {
     plan: Option<Arc<StagePlan>>,
     things: Vec<Box<str>>,
+    hidden: BTreeSet<Box<str>>,
+}
+
+impl PathsBase {
+    /// Returns whether nothing has changed since. Allocates nothing.
+    fn is_same(&self, scene: Option<&SceneView>, things: &[Box<str>], hidden: &BTreeSet<Box<str>>) -> bool {
+        let of_plan = |plan: Option<&Arc<StagePlan>>| plan.map(Arc::as_ptr);
+        of_plan(self.plan.as_ref()) == of_plan(scene.and_then(|scene| scene.plan.as_ref()))
+            && *self.things == *things
+            && self.hidden == *hidden
+    }
+}
+
+/// Everything that the drawing of lines of a project is made from.
+#[derive(Clone, Debug)]
+struct LinesBase {
+    lines: Option<Arc<DrawnLines>>,
     selected: Option<Box<str>>,
     hidden: BTreeSet<Box<str>>,
 }
 
-impl LooksBase {
+impl LinesBase {
     /// Returns whether nothing has changed since. Allocates nothing.
-    fn is_same(&self, scene: Option<&SceneView>, things: &[Box<str>], lines: &LineEditing) -> bool {
+    fn is_same(&self, scene: Option<&SceneView>, now: &LineEditing) -> bool {
         let of_lines = |lines: Option<&Arc<DrawnLines>>| lines.map(Arc::as_ptr);
-        let of_plan = |plan: Option<&Arc<StagePlan>>| plan.map(Arc::as_ptr);
         of_lines(self.lines.as_ref()) == of_lines(scene.and_then(|scene| scene.lines.as_ref()))
-            && of_plan(self.plan.as_ref()) == of_plan(scene.and_then(|scene| scene.plan.as_ref()))
-            && *self.things == *things
-            && (&self.selected, &self.hidden) == (&lines.selected, &lines.hidden)
+            && (&self.selected, &self.hidden) == (&now.selected, &now.hidden)
     }
 }
 
@@ -67,6 +86,10 @@ impl LineEditing {
         &self.looks
     }
 
+    pub(in crate::panels) fn eraser_mut(&mut self) -> &mut Option<LineEraser> {
+        &mut self.eraser
+    }
+
     pub(in crate::panels) fn select(&mut self, line: Option<Box<str>>) {
         self.selected = line;
     }
@@ -79,26 +102,39 @@ impl LineEditing {
         }
     }
 
-    /// Adapts what is drawn to the scene and the selected things. Does nothing if nothing changed.
-    pub(in crate::panels) fn update(&mut self, scene: Option<&SceneView>, things: &[Box<str>]) {
-        if self.made_from.as_ref().is_some_and(|base| base.is_same(scene, things, self)) {
+    /// Adapts what is drawn to the scene and to the things that are selected and hidden. Does nothing if nothing changed; a newer plan leaves the lines of a project
+    /// as they are.
+    pub(in crate::panels) fn update(
+        &mut self,
+        scene: Option<&SceneView>,
+        things: &[Box<str>],
+        hidden: &BTreeSet<Box<str>>,
+    ) {
+        let same_paths = self.paths.0.as_ref().is_some_and(|base| base.is_same(scene, things, hidden));
+        let same_lines = self.lines.0.as_ref().is_some_and(|base| base.is_same(scene, self));
+        if same_paths && same_lines {
             return;
         }
-        let base = LooksBase {
-            lines: scene.and_then(|scene| scene.lines.clone()),
-            plan: scene.and_then(|scene| scene.plan.clone()),
-            things: things.to_vec(),
-            selected: self.selected.clone(),
-            hidden: self.hidden.clone(),
-        };
-        let mut looks = Vec::new();
-        let script = scene.and_then(|scene| scene.script.as_ref());
-        if let (Some(script), Some(plan)) = (script, &base.plan) {
-            looks.extend(path_looks(script, plan, &base.things));
+        if !same_paths {
+            let base = PathsBase {
+                plan: scene.and_then(|scene| scene.plan.clone()),
+                things: things.to_vec(),
+                hidden: hidden.clone(),
+            };
+            let script = scene.and_then(|scene| scene.script.as_ref()).zip(base.plan.as_ref());
+            let looks = script.map(|(script, plan)| path_looks(script, plan, &base.things, hidden));
+            self.paths = (Some(base), looks.unwrap_or_default());
         }
-        if let Some(lines) = &base.lines {
-            looks.extend(line_looks(lines, |name| self.is_hidden(name), self.selected()));
+        if !same_lines {
+            let base = LinesBase {
+                lines: scene.and_then(|scene| scene.lines.clone()),
+                selected: self.selected.clone(),
+                hidden: self.hidden.clone(),
+            };
+            let lines = base.lines.as_ref();
+            let looks = lines.map(|lines| line_looks(lines, |name| self.is_hidden(name), self.selected()));
+            self.lines = (Some(base), looks.unwrap_or_default());
         }
-        (self.looks, self.made_from) = (looks.into(), Some(base));
+        self.looks = self.paths.1.iter().chain(&self.lines.1).cloned().collect();
     }
 }

@@ -1,14 +1,19 @@
 //! The scene in the viewport: what is under the pointer, its things at the time shown, and a drag of them.
 
 use super::SceneBase;
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StagePlan, StageScene};
 use dragonfly_document::history::Gesture;
 use egui::Pos2;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Distance between two clicks at the same place, points.
 const SAME: f32 = 4.0;
+
+/// Time without a movement after which the next turn of the wheel is another step.
+const PAUSE: Duration = Duration::from_millis(400);
 
 /// The state of the viewport of a scene; it contains nothing of the document.
 #[derive(Debug, Default)]
@@ -20,10 +25,14 @@ pub struct SceneViewport {
     /// Place and result of the last click.
     last: Option<(Pos2, Arc<str>)>,
     shown: Option<ShownThings>,
-    /// The script at the start of the drag in progress.
+    /// The script at the start of the drag in progress, its things, and what the drag has changed last.
     base: Option<SceneBase>,
+    base_shown: Option<ShownThings>,
+    written: Option<TextSplices>,
     /// The gesture that moves a camera, which is one step.
     camera_drag: Option<Gesture>,
+    /// When the wheel or a panel moved the camera last; `None` while the viewport is dragged.
+    turned: Option<Instant>,
     /// Title of the scene whose model is edited now, or is being opened for that.
     waiting: Option<WaitingTitle>,
 }
@@ -72,6 +81,16 @@ impl SceneViewport {
         frames
     }
 
+    /// Returns whether the scene was framed with all its models.
+    pub(in crate::panels) fn is_framed(&self) -> bool {
+        self.is_framed
+    }
+
+    /// Notes that the scene is seen as it was before.
+    pub(in crate::panels) fn set_framed(&mut self) {
+        self.is_framed = true;
+    }
+
     /// Returns the thing that a click at `at` selects, of the things there, nearest first. Another click at the same place selects the
     /// next one in that order.
     pub(in crate::panels) fn clicked(&mut self, at: Pos2, things: &[Arc<str>]) -> Option<Arc<str>> {
@@ -93,15 +112,21 @@ impl SceneViewport {
 
     /// Returns the things of `plan` at `time`.
     pub(in crate::panels) fn things_at(&mut self, plan: &Arc<StagePlan>, time: StageTime) -> &StageScene {
-        let is_same = |shown: &ShownThings| Arc::ptr_eq(&shown.plan, plan);
-        let mut shown = match self.shown.take().filter(is_same) {
-            Some(shown) if shown.time == time => return &self.shown.insert(shown).scene,
-            Some(shown) => shown,
-            None => ShownThings { plan: Arc::clone(plan), time, scene: plan.new_scene() },
-        };
-        plan.scene_at(time, &mut shown.scene);
-        shown.time = time;
-        &self.shown.insert(shown).scene
+        things_at(&mut self.shown, plan, time)
+    }
+
+    /// Returns the things of the plan with which the drag in progress began.
+    pub(in crate::panels) fn base_things(&mut self, plan: &Arc<StagePlan>, time: StageTime) -> &StageScene {
+        things_at(&mut self.base_shown, plan, time)
+    }
+
+    /// Returns whether the drag in progress has not made these changes last, and notes them.
+    pub(in crate::panels) fn is_new(&mut self, splices: &TextSplices) -> bool {
+        let is_new = self.written.as_ref() != Some(splices);
+        if is_new {
+            self.written = Some(splices.clone());
+        }
+        is_new
     }
 
     /// Returns the camera of the shot at the time computed last, as a position in the cast.
@@ -116,7 +141,7 @@ impl SceneViewport {
 
     /// Sets the script at the start of a drag; `None` at its end.
     pub(in crate::panels) fn set_base(&mut self, base: Option<SceneBase>) {
-        self.base = base;
+        (self.base, self.base_shown, self.written) = (base, None, None);
     }
 
     /// Returns the gesture that moves a camera.
@@ -124,12 +149,57 @@ impl SceneViewport {
         self.camera_drag
     }
 
-    pub(in crate::panels) fn set_camera_drag(&mut self, gesture: Option<Gesture>) {
-        self.camera_drag = gesture;
+    /// Begins or continues the gesture that moves a camera. `turned` is the time of a movement by the wheel or a panel, whose end no one
+    /// reports; `None` for a drag of the viewport.
+    pub(in crate::panels) fn move_camera(
+        &mut self,
+        gesture: Gesture,
+        base: SceneBase,
+        turned: Option<Instant>,
+    ) {
+        if self.camera_drag.replace(gesture) != Some(gesture) {
+            self.set_base(Some(base));
+        }
+        self.turned = turned;
+    }
+
+    /// Ends the gesture that moves a camera.
+    pub(in crate::panels) fn end_camera(&mut self) {
+        if self.camera_drag.take().is_some() {
+            self.turned = None;
+            self.set_base(None);
+        }
+    }
+
+    /// Returns whether a gesture is a camera moved by the wheel or a panel: it has no end that could be cancelled.
+    pub fn is_turning(&self, gesture: Option<Gesture>) -> bool {
+        self.turned.is_some() && gesture.is_some() && self.camera_drag == gesture
+    }
+
+    /// Returns the time until a camera that the wheel or a panel moved counts as released; `None` where there is none.
+    pub(in crate::panels) fn turn_left(&self, now: Instant) -> Option<Duration> {
+        Some(PAUSE.saturating_sub(now.saturating_duration_since(self.turned?)))
     }
 
     /// Forgets everything but the scene that waits: another document is shown.
     pub(in crate::panels) fn reset(&mut self) {
         *self = Self { waiting: self.waiting.take(), ..Self::default() };
     }
+}
+
+/// Returns the things of `plan` at `time`, which are computed where `shown` has others.
+fn things_at<'a>(
+    shown: &'a mut Option<ShownThings>,
+    plan: &Arc<StagePlan>,
+    time: StageTime,
+) -> &'a StageScene {
+    let is_same = |shown: &ShownThings| Arc::ptr_eq(&shown.plan, plan);
+    let mut now = match shown.take().filter(is_same) {
+        Some(now) if now.time == time => return &shown.insert(now).scene,
+        Some(now) => now,
+        None => ShownThings { plan: Arc::clone(plan), time, scene: plan.new_scene() },
+    };
+    plan.scene_at(time, &mut now.scene);
+    now.time = time;
+    &shown.insert(now).scene
 }

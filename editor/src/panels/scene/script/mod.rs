@@ -296,7 +296,6 @@ fn selected_range(scene: &SceneView, context: &PanelContext<'_>) -> Option<Range
         script.actions().get(action)?;
         return Some(script.element(action).range.clone());
     }
-    let thing = editing.things().last()?;
-    let element = script.things().find(|element| element.value("id") == Some(thing))?;
-    Some(element.range.clone())
+    let element = script.thing_element(editing.things().last()?)?;
+    Some(script.tree().elements()[element].range.clone())
 }
