@@ -10,12 +10,14 @@ use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::stage::StagePath;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::StageScript;
 use dragonfly_document::adapter::{TextFile, TextFiles};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::Edit;
 use dragonfly_document::{Change, SceneView, View};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::gizmo::GizmoView;
+use egui_kittest::kittest::Queryable;
 use glam::{DVec3, Vec2};
 use std::sync::Arc;
 
@@ -261,4 +263,53 @@ fn the_eraser_removes_what_it_crosses_and_only_what_is_seen() {
     assert_eq!(erased(&mut window, left(0.2), right(1.7)), ["late", "far"]);
     window.state_mut().state.settings_mut().look.lines = false;
     assert_eq!(erased(&mut window, left(0.2), right(1.7)), [""; 0], "no line is shown");
+}
+
+/// Executes a request about a line. Returns the text of the lines that follows, and what was said.
+fn line_request(window: &mut Window, request: LineRequest) -> (Option<Effect>, String) {
+    let effect = window.state_mut().state.execute(Request::Scene(SceneRequest::Line(request)));
+    let read = window.state().state.read();
+    (effect, read.status.last().map(|message| message.text.clone()).unwrap_or_default())
+}
+
+#[test]
+fn a_line_that_a_path_follows_is_not_deleted_and_names_that_break_the_file_are_refused() {
+    let mut window = project();
+    let set = |name: &str| LineRequest::Set("far".into(), "id", Some(name.to_owned()));
+    let (effect, said) = line_request(&mut window, set("my line"));
+    assert!(effect.is_none() && said.contains("my line"), "{said}");
+    let (effect, said) = line_request(&mut window, set("long"));
+    assert!(effect.is_none() && said.contains("used"), "{said}");
+    let (effect, said) = line_request(&mut window, LineRequest::Delete("far".into()));
+    assert!(matches!(effect, Some(Effect::Change(_))), "nothing follows it: {said}");
+    // A path along one of the lines.
+    let view = window.state().state.read().view.cloned().expect("a view");
+    let followed = FOXES.replace("  </cast>", "    <path id=\"way\" line=\"long\"/>\n  </cast>");
+    let scene = SceneView {
+        script: Some(Arc::new(StageScript::read(followed).expect("a script"))),
+        ..view.scene.as_deref().expect("a scene").clone()
+    };
+    window.state_mut().state.show(View { scene: Some(Arc::new(scene)), ..view });
+    let (effect, said) = line_request(&mut window, LineRequest::Delete("long".into()));
+    assert!(effect.is_none() && said.contains("way") && said.contains("long"), "{said}");
+}
+
+#[test]
+fn errors_of_the_project_and_of_its_lines_are_listed_with_their_files() {
+    let mut window = project();
+    let view = window.state().state.read().view.cloned().expect("a view");
+    let errors = |text: &str| DrawnLines::read(text).expect_err("an error");
+    let scene = SceneView {
+        line_errors: errors(&LINES.replace("points=\"-1 0 1.5 ", "points=\"x 0 1.5 ")).into(),
+        project_errors: StageProject::read(PROJECT.replace("src=\"a.lines.xml\"", ""))
+            .expect_err("an error")
+            .into(),
+        ..view.scene.as_deref().expect("a scene").clone()
+    };
+    window.state_mut().state.show(View { scene: Some(Arc::new(scene)), ..view });
+    window.run_steps(3);
+    for file in ["a.lines.xml", "a.meproj"] {
+        let found = window.query_all_by_label_contains(&format!("Error at {file}, ")).count();
+        assert!(found > 0, "no error of {file} is listed");
+    }
 }

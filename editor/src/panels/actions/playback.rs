@@ -55,11 +55,9 @@ pub(in crate::panels) fn follow_take(workspace: &mut Workspace, before: Option<&
 /// gone.
 pub(in crate::panels) fn keep_take(workspace: &mut Workspace) {
     let panels = workspace.read();
-    let bounds = panels
-        .take()
-        .map(drop)
-        .or(panels.scene_bounds().map(drop))
-        .map(|()| if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() });
+    let is_there = panels.take().is_some() || panels.scene_bounds().is_some();
+    let bounds = || if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() };
+    let bounds = is_there.then(bounds);
     workspace.player.keep(bounds);
 }
 

@@ -53,13 +53,11 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Hide(things, hide) => workspace.scene.hide(things, hide),
         SceneRequest::Lock(things, lock) => workspace.scene.lock(things, lock),
         SceneRequest::Rename(thing) => workspace.scene.rename(thing),
-        SceneRequest::Ripple(ripple) => workspace.scene.set_ripple(ripple),
         SceneRequest::Window(window) => workspace.scene.set_window(window),
         SceneRequest::Refused(reason) => workspace.say(MessageSeverity::Info, reason),
         SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
         SceneRequest::Through(through) => scene_camera::look_through(workspace, through),
         SceneRequest::EditModel(thing) => return edit_model(workspace, &thing),
-        SceneRequest::ShowScene => return show_scene(workspace),
     }
     None
 }

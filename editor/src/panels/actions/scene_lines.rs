@@ -4,7 +4,7 @@ use super::scene_text::{self, gesture};
 use super::tools;
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::panels::request::Effect;
-use crate::panels::scene::{LineEraser, LineRequest, NewThing, line_named};
+use crate::panels::scene::{LineEraser, LineRequest, NO_LINES, NewThing, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
@@ -12,6 +12,7 @@ use dragonfly_anim::stage::line::{DrawnLines, NewLine, path_points, points_text}
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use dragonfly_anim::stage::{PlannedThing, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
+use dragonfly_document::text::sentence;
 use dragonfly_document::{Change, SceneView};
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
@@ -19,9 +20,6 @@ use std::sync::Arc;
 
 /// Least distance by which a path may differ from the stroke, meters.
 const PATH_TOLERANCE: f64 = 0.01;
-
-/// The text of a file of lines before the first one.
-const NO_LINES: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<lines version=\"1\">\n</lines>\n";
 
 /// Begins to draw lines or paths; a second time ends it.
 pub(in crate::panels) fn choose(workspace: &mut Workspace, use_of: LineUse) {
@@ -196,7 +194,7 @@ fn lines_edit(
     scene: &SceneView,
     label: &str,
     change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
-) -> Result<EditScript, &'static str> {
+) -> Result<EditScript, String> {
     let project = scene
         .project
         .as_ref()
@@ -206,12 +204,13 @@ fn lines_edit(
         let file = scene.texts.called(name).ok_or("The file of lines is missing")?;
         let lines = DrawnLines::read(Arc::clone(&file.text)).map_err(|_| "The file of lines has errors")?;
         let splices = change(&lines).ok_or(refused)?;
+        check(scene, &lines, &splices.apply(&file.text))?;
         let edit = EditScript::of(&file.text, &splices, label);
         return Ok(EditScript { text: Some(TextRef::Name(name.to_owned())), ..edit });
     }
     let main = scene.texts.list().first().ok_or("The project has no text")?;
     if **project.tree().text() != *main.text {
-        return Err("The project has errors: correct it first");
+        return Err("The project has errors: correct it first".to_owned());
     }
     let name = (1_u32..)
         .map(
@@ -223,6 +222,7 @@ fn lines_edit(
         .ok_or(refused)?;
     let empty = DrawnLines::read(NO_LINES).map_err(|_| refused)?;
     let text = change(&empty).ok_or(refused)?.apply(NO_LINES);
+    check(scene, &empty, &text)?;
     let place = match project.tree().elements().iter().rposition(|element| element.parent == Some(0)) {
         Some(last) => ElementPlace::After(last),
         None => ElementPlace::First(0),
@@ -237,6 +237,20 @@ fn lines_edit(
         label: Some(label.to_owned()),
         also: vec![EditScript { text: Some(TextRef::Name(main.name.to_string())), ..of_project }],
     })
+}
+
+/// Refuses a text of lines that cannot be read, and one without a line that a path of the script needs.
+fn check(scene: &SceneView, before: &DrawnLines, text: &str) -> Result<(), String> {
+    let after = DrawnLines::read(text)
+        .map_err(|errors| errors.first().map_or_else(String::new, |error| sentence(&error.text())))?;
+    let things = scene.script.iter().flat_map(|script| script.things());
+    let needed = things.filter_map(|thing| Some((thing.value("id")?, thing.value("line")?)));
+    for (path, line) in needed {
+        if before.called(line).is_some() && after.called(line).is_none() {
+            return Err(format!("The path {path} follows the line {line}: delete the path first"));
+        }
+    }
+    Ok(())
 }
 
 /// Adds a path along the selected line to the cast, and selects it.

@@ -27,10 +27,10 @@ mod viewport;
 
 pub use base::SceneBase;
 pub use editing::SceneEditing;
-pub use follow::follow_action;
 pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;
 pub use new_thing::{NewThing, new_thing_text};
 pub use request::{LineRequest, SceneRequest, ScriptChange};
+pub(in crate::panels) use template::NO_LINES;
 pub use template::{duel_text, free_name, project_texts};
 pub use viewport::{SceneViewport, WaitingTitle};
