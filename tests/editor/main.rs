@@ -92,6 +92,7 @@ mod scene_left;
 mod scene_lines;
 mod scene_outliner;
 mod scene_paths;
+mod scene_rate;
 mod scene_script;
 mod scene_timeline;
 mod scene_viewport;
