@@ -1,4 +1,4 @@
-//! What stays of a scene when its file is read again, and while one of its models is edited.
+//! The state of a scene that stays when its file is read again, and while one of its models is edited.
 
 use crate::scene_bench::{FOXES, scene};
 use crate::workbench::Workbench;

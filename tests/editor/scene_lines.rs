@@ -265,7 +265,7 @@ fn the_eraser_removes_what_it_crosses_and_only_what_is_seen() {
     assert_eq!(erased(&mut window, left(0.2), right(1.7)), [""; 0], "no line is shown");
 }
 
-/// Executes a request about a line. Returns the text of the lines that follows, and what was said.
+/// Executes a request about a line. Returns its effect, and the newest message.
 fn line_request(window: &mut Window, request: LineRequest) -> (Option<Effect>, String) {
     let effect = window.state_mut().state.execute(Request::Scene(SceneRequest::Line(request)));
     let read = window.state().state.read();

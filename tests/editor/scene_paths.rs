@@ -25,7 +25,7 @@ fn thousands_of_paths_with_those_that_follow_them_are_drawn_at_once() {
     text += "    <role id=\"anna\" model=\"Fox.glb\" scale=\"0.01\"/>\n  </cast>\n  <seq>\n";
     for at in 0..moves {
         let path = at % paths;
-        writeln!(text, "    <move who=\"anna\" path=\"p{path}\" dur=\"1\" feet=\"free\"/>").expect("a text");
+        writeln!(text, "    <move who=\"anna\" path=\"p{path}\" dur=\"1.5\" feet=\"free\"/>").expect("a text");
     }
     text += "  </seq>\n</script>\n";
     let mut bench = scene(&text);
@@ -39,7 +39,7 @@ fn thousands_of_paths_with_those_that_follow_them_are_drawn_at_once() {
     );
     let looks = read.scene_editing.lines().looks();
     assert_eq!(looks.len(), paths);
-    // Three of one second each.
+    // Three of a second and a half each.
     assert!(looks.iter().all(|look| look.ticks.len() == 3), "{:?}", looks[0].ticks);
     assert!(looks.iter().enumerate().all(|(path, look)| look.ticks[0][0].z == path as f32));
 }

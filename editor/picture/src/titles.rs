@@ -32,7 +32,7 @@ impl TitleDrawer {
         let size = (LINE * height).max(6.0);
         for shown in &cast.state().titles {
             let Some(title) = cast.plan().titles().get(shown.title) else { continue };
-            // Where the letters before have filled their image, it begins again.
+            // If earlier letters have filled their image, it begins again.
             self.fonts.begin_pass(options(picture), ViewportKey::default());
             let mut view = self.fonts.with_pixels_per_point(1.0);
             let galley =

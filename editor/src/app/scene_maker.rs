@@ -45,7 +45,7 @@ fn written_project(script: &Path) -> SceneAnswer {
     let lines = script.with_file_name(lines);
     write_new(&lines, &lines_text)?;
     if let Err(reason) = write_new(&project, &project_text) {
-        // Left over, it would stop every later try. Where it cannot be removed, the next try says so.
+        // A file of lines alone would stop every later try. If it cannot be removed, the next try reports it.
         let _removed = std::fs::remove_file(&lines);
         return Err(reason);
     }

@@ -191,7 +191,7 @@ fn the_nearest_frame_of_a_time_is_exact_at_every_rate() {
             for away in [half, -half] {
                 assert_eq!(rate.nearest_frame(StageTime::from_ticks(time.ticks() + away)), frame);
             }
-            // What a clock of single precision has of it.
+            // The same in single precision, as a clock has it.
             assert_eq!(rate.time_of(f64::from(time.seconds() as f32)), time, "{frames}/{seconds}, {frame}");
         }
         let between = StageTime::from_ticks(rate.frame(5).ticks() + rate.frame(1).ticks() / 3);

@@ -8,7 +8,7 @@ use glam::{Mat4, Vec3};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Number of morph targets of the model: as many weights for each role.
+/// Number of morph targets of the model, and of weights of each role.
 const TARGETS: usize = 50_000;
 /// Number of roles: together 4 GB of weights.
 const ROLES: usize = 20_000;

@@ -88,7 +88,7 @@ fn a_model_without_a_scene_has_no_things() {
 
 #[test]
 fn the_first_thing_under_the_pointer_is_the_first_of_all_that_are_there() {
-    // Roles behind each other, some of them inside of the boxes of others.
+    // Roles in rows, some of them inside of the boxes of others.
     let roles: String = (0..12)
         .map(|role| {
             let (x, z) = (f64::from(role % 4) * 0.4 - 0.6, f64::from(role / 4) * -0.3);

@@ -33,7 +33,7 @@ const HALF: f32 = 0.25;
 /// Draws the things of a scene.
 #[derive(Default)]
 pub(super) struct CastGraphic {
-    /// Which things of a plan are selected, by their positions.
+    /// The things of a plan that are selected, by their positions.
     selected: Option<SelectedThings>,
 }
 

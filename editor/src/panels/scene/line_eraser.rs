@@ -15,7 +15,7 @@ const REACH: f64 = 7.0;
 pub struct LineEraser {
     lines: Arc<DrawnLines>,
     view: GizmoView,
-    /// Where the pointer was last, points from the top left of the viewport.
+    /// The last position of the pointer, points from the top left of the viewport.
     at: DVec2,
     left: Vec<ShownLine>,
     hits: Vec<usize>,
@@ -25,7 +25,7 @@ pub struct LineEraser {
 #[derive(Clone, Debug)]
 struct ShownLine {
     index: usize,
-    /// Its points; `None` behind the camera.
+    /// Its points; `None` for those that are not in front of the camera.
     points: Vec<Option<DVec2>>,
     /// The box around them; `None` where none is in front of the camera.
     around: Option<[DVec2; 2]>,
