@@ -25,7 +25,8 @@ fn thousands_of_paths_with_those_that_follow_them_are_drawn_at_once() {
     text += "    <role id=\"anna\" model=\"Fox.glb\" scale=\"0.01\"/>\n  </cast>\n  <seq>\n";
     for at in 0..moves {
         let path = at % paths;
-        writeln!(text, "    <move who=\"anna\" path=\"p{path}\" dur=\"1.5\" feet=\"free\"/>").expect("a text");
+        writeln!(text, "    <move who=\"anna\" path=\"p{path}\" dur=\"1.5\" feet=\"free\"/>")
+            .expect("a text");
     }
     text += "  </seq>\n</script>\n";
     let mut bench = scene(&text);

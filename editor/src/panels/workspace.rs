@@ -1,6 +1,5 @@
 //! Everything that panels show and commands change: one owner for each part.
 
-use super::actions::left_scene::LeftScene;
 use super::camera_state::CameraState;
 use super::compared::{CompareWith, ComparedFile};
 use super::context::PanelContext;
@@ -22,7 +21,7 @@ use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
-use super::scene::{SceneEditing, SceneViewport};
+use super::scene::{LeftScene, SceneEditing, SceneViewport};
 use super::selected_bones::SelectedBones;
 use super::selection_sets::SelectionSets;
 use super::selection_steps::{SelectionState, SelectionSteps};

@@ -20,7 +20,7 @@ pub(super) mod inbetween;
 pub(super) mod input;
 pub(super) mod keys;
 pub(super) mod layers;
-pub(super) mod left_scene;
+mod left_scene;
 pub(super) mod locks;
 pub(super) mod look;
 pub(super) mod playback;

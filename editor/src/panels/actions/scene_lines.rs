@@ -4,11 +4,11 @@ use super::scene_text::{self, gesture};
 use super::tools;
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::panels::request::Effect;
-use crate::panels::scene::{LineEraser, LineRequest, NO_LINES, NewThing, line_named};
+use crate::panels::scene::{LineEraser, LineRequest, NO_LINES, NewThing, line_name, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
-use dragonfly_anim::stage::line::{DrawnLines, NewLine, path_points, points_text};
+use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, points_text};
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use dragonfly_anim::stage::{PlannedThing, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
@@ -117,7 +117,7 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
 fn put_eraser(workspace: &mut Workspace, at: Vec2) {
     let lines = workspace.read().scene().and_then(|scene| scene.lines.clone());
     let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
-    let is_hidden = |name: &str| workspace.scene.lines().is_hidden(name);
+    let is_hidden = |index, line: &DrawnLine| workspace.scene.lines().is_hidden(&line_name(index, line));
     let eraser = lines
         .filter(|_| workspace.settings.look.lines)
         .map(|lines| LineEraser::new(lines, is_hidden, view, at.as_dvec2()));

@@ -1,6 +1,5 @@
 //! The eraser of drawn lines: what it has touched since the button was pressed.
 
-use super::line_editing::line_name;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_picture::gizmo::GizmoView;
@@ -32,16 +31,16 @@ struct ShownLine {
 }
 
 impl LineEraser {
-    /// Begins at a position. Lines that move with a thing are elsewhere and stay, and so do those for which `is_hidden` returns true.
+    /// Begins at a position. Lines that move with a thing are elsewhere and stay, and so do the hidden ones.
     pub(in crate::panels) fn new(
         lines: Arc<DrawnLines>,
-        is_hidden: impl Fn(&str) -> bool,
+        is_hidden: impl Fn(usize, &DrawnLine) -> bool,
         view: GizmoView,
         at: DVec2,
     ) -> Self {
         let all = lines.list().iter().enumerate();
         let fixed = all.filter(|(_, line)| line.of.as_deref().is_none_or(str::is_empty));
-        let seen = fixed.filter(|(index, line)| !is_hidden(&line_name(*index, line)));
+        let seen = fixed.filter(|(index, line)| !is_hidden(*index, line));
         let left = seen.map(|(index, line)| ShownLine::new(index, line, &view)).collect();
         Self { lines, view, at, left, hits: Vec::new() }
     }

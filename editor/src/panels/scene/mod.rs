@@ -12,6 +12,7 @@ pub mod attributes;
 mod base;
 mod editing;
 mod follow;
+mod left_scene;
 mod line_editing;
 mod line_eraser;
 mod line_look;
@@ -27,6 +28,7 @@ mod viewport;
 
 pub use base::SceneBase;
 pub use editing::SceneEditing;
+pub use left_scene::LeftScene;
 pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;
 pub use new_thing::{NewThing, new_thing_text};
