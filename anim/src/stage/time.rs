@@ -189,6 +189,23 @@ impl StageRate {
         StageTime::divided(ticks, i128::from(self.frames) * Decimal::power(count.scale))
     }
 
+    /// Returns the frame nearest to `time`; half-way between two frames the one that is farther from zero.
+    pub fn nearest_frame(self, time: StageTime) -> i64 {
+        let (frames, second) = (i128::from(self.frames), i128::from(TICKS_PER_SECOND));
+        let by = i128::from(self.seconds) * second;
+        let twice = 2 * i128::from(time.0) * frames;
+        // Rounded without a fraction; the result is below 1,000 frames for each of the seconds of a time.
+        ((twice + by * twice.signum()) / (2 * by)) as i64
+    }
+
+    /// Returns the time that a clock of single precision means by `seconds`: within its precision near a frame that frame, exactly.
+    pub fn time_of(self, seconds: f64) -> StageTime {
+        let time = StageTime::from_seconds(seconds);
+        let frame = self.frame(self.nearest_frame(time));
+        let precision = f64::from(f32::EPSILON) * seconds.abs().max(1.0);
+        if (frame.seconds() - seconds).abs() <= precision { frame } else { time }
+    }
+
     /// Returns the frames per second, rounded to the nearest `f64`.
     pub fn per_second(self) -> f64 {
         f64::from(self.frames) / f64::from(self.seconds)

@@ -88,7 +88,7 @@ fn milliseconds(time: StageTime, rate: StageRate, like: &str) -> Option<String> 
 
 fn frames(time: StageTime, rate: StageRate, like: &str) -> Option<String> {
     like.strip_suffix('f')?;
-    exact(format!("{}f", (time.seconds() * rate.per_second()).round()), time, rate)
+    exact(format!("{}f", rate.nearest_frame(time)), time, rate)
 }
 
 fn minutes(time: StageTime, rate: StageRate, like: &str) -> Option<String> {

@@ -173,3 +173,29 @@ fn the_usual_cycle_is_explained() {
         "the action before it has no length of its own: give it a `dur`, or this one a `begin`"
     );
 }
+
+#[test]
+fn the_nearest_frame_of_a_time_is_exact_at_every_rate() {
+    for (frames, seconds) in
+        [(1, 1), (24, 1), (24_000, 1001), (30_000, 1001), (60_000, 1001), (1000, 1), (997, 13)]
+    {
+        let rate = StageRate::new(frames, seconds).unwrap();
+        for frame in (-2_000..2_000).chain([86_399_000, -86_399_000, 7_654_321]) {
+            let time = rate.frame(frame);
+            if time.seconds().abs() > 86_000.0 {
+                continue;
+            }
+            assert_eq!(rate.nearest_frame(time), frame, "{frames}/{seconds}");
+            // Nearly half a frame to both sides, by the definition.
+            let half = (rate.frame(1).ticks() - 2) / 2;
+            for away in [half, -half] {
+                assert_eq!(rate.nearest_frame(StageTime::from_ticks(time.ticks() + away)), frame);
+            }
+            // The same in single precision, as a clock has it.
+            assert_eq!(rate.time_of(f64::from(time.seconds() as f32)), time, "{frames}/{seconds}, {frame}");
+        }
+        let between = StageTime::from_ticks(rate.frame(5).ticks() + rate.frame(1).ticks() / 3);
+        let found = rate.time_of(between.seconds());
+        assert!((found.ticks() - between.ticks()).abs() <= 1, "a time between two frames stays there");
+    }
+}

@@ -2,36 +2,43 @@
 
 use super::scene::{GestureRefusal, refused};
 use crate::stage::schedule::resolve;
-use crate::stage::script::{ScriptError, ScriptTree, StageScript};
+use crate::stage::script::{ScriptTree, StageScript};
 use crate::stage::splice::{TextSplices, remove_attribute, set_attribute};
 
-/// A text and its elements.
-pub(super) struct ScriptDraft {
-    tree: ScriptTree,
+/// A text that changes in steps. A text is read when the next step needs its elements, so that one step reads nothing.
+pub(super) struct ScriptDraft<'a> {
+    before: &'a ScriptTree,
+    /// The elements of a text after some steps.
+    read: Option<ScriptTree>,
+    /// The text after a step that was not read yet.
+    text: Option<String>,
 }
 
 /// A change of an attribute: the element, the name, and the new value; `None` removes it.
 pub(super) type AttributeChange<'a> = (usize, &'a str, Option<String>);
 
-impl ScriptDraft {
-    /// Begins with the text of `tree`.
-    pub(super) fn of(tree: &ScriptTree) -> Self {
-        Self { tree: tree.clone() }
+impl<'a> ScriptDraft<'a> {
+    /// Begins with the text of `tree`, which is that of a script.
+    pub(super) fn of(tree: &'a ScriptTree) -> Self {
+        Self { before: tree, read: None, text: None }
     }
 
     /// Makes one step: `find` returns the splices of the text so far.
     pub(super) fn then(
-        self,
+        mut self,
         find: impl FnOnce(&ScriptTree) -> Option<TextSplices>,
     ) -> Result<Self, GestureRefusal> {
-        let Some(splices) = find(&self.tree) else {
+        if let Some(text) = self.text.take() {
+            self.read = Some(ScriptTree::read(text)?);
+        }
+        let tree = self.read.as_ref().unwrap_or(self.before);
+        let Some(splices) = find(tree) else {
             return refused("There is no place for it in the script");
         };
-        if splices.list().is_empty() {
-            return Ok(self);
+        if !splices.list().is_empty() {
+            self.text = Some(splices.apply(tree.text()));
         }
-        let text = splices.apply(self.tree.text());
-        Ok(Self { tree: ScriptTree::read(text).map_err(|errors| first(&errors))? })
+        Ok(self)
     }
 
     /// Changes attributes. Attributes that already have their values stay as they are written.
@@ -46,14 +53,23 @@ impl ScriptDraft {
 
     /// Returns the text, if it is a script that can be read and whose times do not depend on themselves.
     pub(super) fn finish(self) -> Result<String, GestureRefusal> {
-        let text = self.tree.text().clone();
-        let script = StageScript::read(text.clone()).map_err(|errors| first(&errors))?;
+        let text = match (self.text, self.read) {
+            (Some(text), _) => text,
+            (None, Some(read)) => read.text().to_string(),
+            (None, None) => return Ok(self.before.text().to_string()),
+        };
+        let script = StageScript::read(text.as_str())?;
         // Whether times depend on themselves does not depend on how long anything is.
-        resolve(&script, &[]).map_err(|errors| first(&errors))?;
-        Ok(text.to_string())
+        resolve(&script, &[])?;
+        Ok(text)
     }
 }
 
-fn first(errors: &[ScriptError]) -> GestureRefusal {
-    GestureRefusal(errors.first().map_or(String::new(), ScriptError::text))
+/// Returns the text of `script` with replacements.
+///
+/// # Errors
+///
+/// The result would be no script, or its times would depend on themselves.
+pub fn spliced_text(script: &StageScript, splices: TextSplices) -> Result<String, GestureRefusal> {
+    ScriptDraft::of(script.tree()).then(|_| Some(splices))?.finish()
 }

@@ -1,7 +1,8 @@
 //! Things put somewhere else.
 
-use super::draft::ScriptDraft;
+use super::draft::spliced_text;
 use super::scene::{GestureRefusal, GestureScene, refused};
+use crate::stage::splice::{TextSplices, set_attribute};
 use crate::stage::table::vector;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::number_text;
@@ -20,6 +21,20 @@ pub fn place_thing(
     time: StageTime,
     position: DVec3,
 ) -> Result<String, GestureRefusal> {
+    spliced_text(scene.script, place_splices(scene, thing, time, position)?)
+}
+
+/// Returns the replacements of [`place_thing`]; the new text is not checked.
+///
+/// # Errors
+///
+/// As [`place_thing`].
+pub fn place_splices(
+    scene: &GestureScene<'_>,
+    thing: &str,
+    time: StageTime,
+    position: DVec3,
+) -> Result<TextSplices, GestureRefusal> {
     let at = starting_place(scene, thing, time, "at")?;
     if !position.is_finite() || position.abs().max_element() >= 1e6 {
         return refused("The position is too far away");
@@ -35,7 +50,7 @@ pub fn place_thing(
         }
     };
     let value = position.to_array().map(number_text).join(" ");
-    ScriptDraft::of(scene.script.tree()).with(&[(at.element(), "at", Some(value))])?.finish()
+    written(set_attribute(scene.script.tree(), at.element(), "at", &value))
 }
 
 /// Turns a thing so that it has the direction `degrees` at `time`: 0 looks along +z, 90 along +x.
@@ -49,17 +64,37 @@ pub fn face_thing(
     time: StageTime,
     degrees: f64,
 ) -> Result<String, GestureRefusal> {
+    spliced_text(scene.script, face_splices(scene, thing, time, degrees)?)
+}
+
+/// Returns the replacements of [`face_thing`]; the new text is not checked.
+///
+/// # Errors
+///
+/// As [`place_thing`].
+pub fn face_splices(
+    scene: &GestureScene<'_>,
+    thing: &str,
+    time: StageTime,
+    degrees: f64,
+) -> Result<TextSplices, GestureRefusal> {
     let at = starting_place(scene, thing, time, "facing")?;
     if !degrees.is_finite() {
         return refused("The direction is not a number");
     }
     // From -180 to 180.
     let turned = degrees - 360.0 * ((degrees + 180.0) / 360.0).floor();
-    let element = &scene.script.tree().elements()[at.element()];
+    let (tree, element) = (scene.script.tree(), at.element());
     let value = number_text(turned);
-    let is_written = element.attribute("facing").is_some();
-    let value = (is_written || value != "0").then_some(value);
-    ScriptDraft::of(scene.script.tree()).with(&[(at.element(), "facing", value)])?.finish()
+    let is_written = tree.elements()[element].attribute("facing").is_some();
+    match is_written || value != "0" {
+        true => written(set_attribute(tree, element, "facing", &value)),
+        false => Ok(TextSplices::default()),
+    }
+}
+
+fn written(splices: Option<TextSplices>) -> Result<TextSplices, GestureRefusal> {
+    splices.ok_or_else(|| GestureRefusal("There is no place for it in the script".to_owned()))
 }
 
 /// The element that puts a thing where it is.
@@ -94,11 +129,9 @@ fn starting_place(
     if let Some(last) = places.max_by_key(|&action| (scene.times(action).begin, action)) {
         return Ok(PlaceOf::Action(scene.script.actions()[last].element));
     }
-    let cast = tree
-        .elements()
-        .iter()
-        .position(|element| element.value("id") == Some(thing) && scene.script.thing_called(thing).is_some());
-    let Some(cast) = cast else { return refused(format!("No thing of the cast has the id \"{thing}\"")) };
+    let Some(cast) = scene.script.thing_element(thing) else {
+        return refused(format!("No thing of the cast has the id \"{thing}\""));
+    };
     if tree.elements()[cast].row.attribute(attribute).is_none() {
         return refused(format!("A {} has no place of its own", tree.elements()[cast].row.name));
     }

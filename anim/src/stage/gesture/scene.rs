@@ -1,7 +1,7 @@
 //! The script and plan that gestures apply to, and the reasons for refusals.
 
 use crate::stage::schedule::{ActionTimes, Schedule};
-use crate::stage::script::{ScriptElement, StageScript};
+use crate::stage::script::{ScriptElement, ScriptError, StageScript};
 use crate::stage::time::{StageTime, parse_time};
 use crate::stage::{StagePlan, StageTake};
 use std::fmt;
@@ -35,6 +35,13 @@ impl fmt::Display for GestureRefusal {
 }
 
 impl std::error::Error for GestureRefusal {}
+
+/// The first error of a text as the reason.
+impl From<Vec<ScriptError>> for GestureRefusal {
+    fn from(errors: Vec<ScriptError>) -> Self {
+        Self(errors.first().map_or(String::new(), ScriptError::text))
+    }
+}
 
 /// Returns a refusal.
 pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, GestureRefusal> {

@@ -38,6 +38,7 @@ use cues::ShotCue;
 use glam::Vec3;
 use holds::HoldKind;
 use needed::NeededThings;
+use std::collections::HashMap;
 
 /// Number of things that may hold one, each through the next.
 const MOST_HOLDERS: usize = 64;
@@ -52,6 +53,8 @@ pub struct StagePlan {
     rate: StageRate,
     schedule: Schedule,
     things: Vec<PlannedThing>,
+    /// The positions of the things by their ids.
+    positions: HashMap<Box<str>, usize>,
     /// The things, those that hold others first.
     order: Vec<usize>,
     shots: Vec<ShotCue>,
@@ -81,11 +84,13 @@ impl StagePlan {
         level: SimdLevel,
     ) -> Result<Self, Vec<ScriptError>> {
         let builder = PlanBuilder::build(script, assets)?;
+        let things = builder.binder.things;
         let mut plan = Self {
             level,
             rate: script.rate(),
             schedule: builder.schedule,
-            things: builder.binder.things,
+            positions: things.iter().enumerate().map(|(at, thing)| (thing.id.clone(), at)).collect(),
+            things,
             order: Vec::new(),
             shots: builder.shots,
             titles: builder.titles,
@@ -176,7 +181,7 @@ impl StagePlan {
 
     /// Returns the position of the thing called `id`.
     pub fn thing_called(&self, id: &str) -> Option<usize> {
-        self.things.iter().position(|thing| &*thing.id == id)
+        self.positions.get(id).copied()
     }
 
     /// Returns the titles.

@@ -235,6 +235,11 @@ impl StageScript {
         self.things.iter().map(|&thing| &self.tree.elements[thing])
     }
 
+    /// Returns the indices of the elements of the things in [`Self::tree`], in the order of the text.
+    pub fn thing_elements(&self) -> impl ExactSizeIterator<Item = usize> {
+        self.things.iter().copied()
+    }
+
     /// Returns the actions, in the order of the text; the first one is the script, which is a `par`.
     pub fn actions(&self) -> &[ScriptAction] {
         &self.actions
@@ -254,6 +259,11 @@ impl StageScript {
             NamedItem::Thing(thing) => Some(*thing),
             NamedItem::Action(_) => None,
         }
+    }
+
+    /// Returns the index of the element of the thing called `id` in [`Self::tree`].
+    pub fn thing_element(&self, id: &str) -> Option<usize> {
+        self.things.get(self.thing_called(id)?).copied()
     }
 
     /// Returns the element of an action.

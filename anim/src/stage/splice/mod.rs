@@ -74,6 +74,11 @@ impl TextSplices {
         is_ordered.then_some(Self(splices))
     }
 
+    /// Joins replacements of the same text; `None` where two of them overlap.
+    pub fn joined(parts: impl IntoIterator<Item = Self>) -> Option<Self> {
+        Self::new(parts.into_iter().flat_map(|part| part.0).collect())
+    }
+
     /// Creates one replacement.
     pub(super) fn one(range: Range<usize>, text: impl Into<String>) -> Self {
         Self(vec![TextSplice { range, text: text.into() }])

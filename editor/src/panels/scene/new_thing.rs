@@ -88,15 +88,12 @@ fn stem(model: &str) -> &str {
 ///
 /// The result would be no script.
 pub fn new_thing_text(text: &Arc<str>, thing: &NewThing) -> Result<(String, Box<str>), GestureRefusal> {
-    let refused = |errors: &[dragonfly_anim::stage::script::ScriptError]| {
-        GestureRefusal(errors.first().map_or(String::new(), |error| error.text()))
-    };
-    let mut tree = ScriptTree::read(Arc::clone(text)).map_err(|errors| refused(&errors))?;
+    let mut tree = ScriptTree::read(Arc::clone(text))?;
     if !tree.elements().iter().any(|element| element.row.name == "cast") {
         let with_cast = insert(&tree, ElementPlace::First(0), &NewElement::new("cast"))
             .map(|splices| splices.apply(tree.text()))
             .unwrap_or_default();
-        tree = ScriptTree::read(with_cast).map_err(|errors| refused(&errors))?;
+        tree = ScriptTree::read(with_cast)?;
     }
     let element = thing.element(&tree);
     let kind = element.name();
@@ -105,7 +102,7 @@ pub fn new_thing_text(text: &Arc<str>, thing: &NewThing) -> Result<(String, Box<
     let last = tree.elements().iter().rposition(|element| element.parent == Some(cast));
     let place = of_kind(kind).or(last).map_or(ElementPlace::First(cast), ElementPlace::After);
     let new = insert(&tree, place, &element).map(|splices| splices.apply(tree.text())).unwrap_or_default();
-    let script = StageScript::read(new.as_str()).map_err(|errors| refused(&errors))?;
+    let script = StageScript::read(new.as_str())?;
     let ids = |script: &ScriptTree| -> Vec<Box<str>> {
         script.elements().iter().filter_map(|element| element.value("id")).map(Into::into).collect()
     };

@@ -289,14 +289,14 @@ impl ScriptPanel {
 /// Returns the bytes of what is selected elsewhere: the action, or the active thing; `None` while the text is another one than the script.
 fn selected_range(scene: &SceneView, context: &PanelContext<'_>) -> Option<Range<usize>> {
     let (script, editing) = (scene.script.as_ref()?, context.scene_editing);
-    if **script.tree().text() != **editing.text(scene) {
+    let (own, newest) = (script.tree().text(), editing.text(scene));
+    if !Arc::ptr_eq(own, newest) && **own != **newest {
         return None;
     }
     if let Some(action) = editing.action() {
         script.actions().get(action)?;
         return Some(script.element(action).range.clone());
     }
-    let thing = editing.things().last()?;
-    let element = script.things().find(|element| element.value("id") == Some(thing))?;
-    Some(element.range.clone())
+    let element = script.thing_element(editing.things().last()?)?;
+    Some(script.tree().elements()[element].range.clone())
 }
