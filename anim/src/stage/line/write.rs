@@ -35,12 +35,6 @@ impl DrawnLines {
         insert(self.tree(), place, &element)
     }
 
-    /// Replaces the points of the line at a position of [`Self::list`]. `None` where there is none, or for a number of points that no line
-    /// has.
-    pub fn reshaped(&self, line: usize, points: &[DVec3]) -> Option<TextSplices> {
-        set_attribute(self.tree(), self.list().get(line)?.element, "points", &control_text(points)?)
-    }
-
     /// Sets an attribute of the line at a position of [`Self::list`], or removes it. `None` where there is none.
     pub fn set(&self, line: usize, attribute: &str, value: Option<&str>) -> Option<TextSplices> {
         let element = self.list().get(line)?.element;
