@@ -21,7 +21,7 @@ fn seconds(seconds: f64) -> StageTime {
 }
 
 /// Does a gesture in a scene of foxes. Returns the text before it and after it.
-fn gesture(
+pub(super) fn gesture(
     actions: &str,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) -> (String, Result<String, GestureRefusal>) {
@@ -33,7 +33,7 @@ fn gesture(
 }
 
 /// Returns the lines after the first that differ, as the gesture left them.
-fn changed(
+pub(super) fn changed(
     actions: &str,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) -> Vec<String> {
@@ -44,7 +44,7 @@ fn changed(
     new.lines().filter(|line| !old.contains(line)).map(|line| line.trim().to_owned()).collect()
 }
 
-fn called(scene: &GestureScene<'_>, id: &str) -> usize {
+pub(super) fn called(scene: &GestureScene<'_>, id: &str) -> usize {
     scene.script.action_called(id).unwrap()
 }
 
@@ -238,7 +238,7 @@ fn fades_speeds_and_repetitions_are_attributes_that_are_absent_where_they_are_th
 fn a_clip_that_others_refer_to_is_not_deleted_and_one_that_is_deleted_leaves_no_gap_unless_asked() {
     let refusal =
         gesture(PAR, |scene| delete_clip(scene, called(scene, "a"), Followers::Follow)).1.unwrap_err();
-    assert_eq!(refusal.to_string(), "<play> (line 5) depends on it: change that first");
+    assert_eq!(refusal.to_string(), "<play id=\"b\"> (line 5) depends on it: change that first");
     let (old, new) = gesture(SEQ, |scene| delete_clip(scene, called(scene, "b"), Followers::Follow));
     assert_eq!(
         new.unwrap(),
@@ -305,7 +305,10 @@ fn a_new_clip_continues_the_sequence_of_its_role_or_begins_in_a_par() {
     let begin = plan.schedule().times()[5].begin.seconds();
     assert!((8.999..=9.0).contains(&begin), "{begin}");
     assert_eq!(changed(SEQ, add("ben", 0.25)), [r#"<play who="ben" take="Run" begin="0.25"/>"#]);
-    assert_eq!(gesture(SEQ, add("wide", 0.0)).1.unwrap_err().to_string(), "A camera plays no takes");
+    assert_eq!(
+        gesture(SEQ, add("wide", 0.0)).1.unwrap_err().to_string(),
+        "\"wide\" is no role or prop, so it plays no takes"
+    );
 }
 
 #[test]
@@ -426,4 +429,16 @@ fn a_role_that_follows_a_path_gets_one_line_and_what_follows_no_path_is_refused(
         let (_, refused) = gesture(PAR, |scene| follow_path(scene, who, way, None, seconds(0.0)));
         assert!(refused.is_err(), "{who} follows {way}");
     }
+}
+
+#[test]
+fn everything_that_moves_follows_a_path() {
+    for who in ["sun", "rain", "wide", "sword"] {
+        let (_, new) = gesture(PAR, |scene| follow_path(scene, who, "aisle", None, seconds(2.0)));
+        let new = new.unwrap_or_else(|refusal| panic!("{refusal}"));
+        assert!(new.contains(&format!("<move who=\"{who}\" path=\"aisle\"")), "{new}");
+    }
+    let (_, refused) = gesture(PAR, |scene| follow_path(scene, "door", "aisle", None, seconds(0.0)));
+    let wanted = "\"door\" is no role or prop or camera or light or effect, so it follows no path";
+    assert_eq!(refused.unwrap_err().to_string(), wanted);
 }

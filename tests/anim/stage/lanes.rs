@@ -2,7 +2,7 @@
 
 use super::actors::{assets, fox, fox_script, planned};
 use super::read;
-use dragonfly_anim::stage::lanes::{LaneSubject, SceneLanes};
+use dragonfly_anim::stage::lanes::SceneLanes;
 
 fn lanes(actions: &str) -> SceneLanes {
     let text = fox_script(actions);
@@ -43,7 +43,6 @@ fn every_role_has_a_lane_and_every_action_a_bar_in_it() {
         ]
     );
     assert_eq!(lanes.list[1].rows, 3);
-    assert_eq!(lanes.list[1].subject, LaneSubject::Thing(0));
     assert_eq!(lanes.end.seconds(), 4.0);
 }
 

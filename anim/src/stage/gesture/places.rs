@@ -24,18 +24,33 @@ pub fn place_thing(
     if !position.is_finite() || position.abs().max_element() >= 1e6 {
         return refused("The position is too far away");
     }
-    let position = match at {
-        PlaceOf::Action(_) => position,
-        PlaceOf::Cast(element) => {
-            let index = scene.plan.thing_called(thing).unwrap_or_default();
-            let now = scene.plan.placement(index, time).map_or(DVec3::ZERO, |place| place.position);
-            let start =
-                scene.script.tree().elements()[element].value("at").and_then(vector).unwrap_or_default();
-            start + (position - now)
+    // The start moves by as much as the thing, which may have traveled since.
+    let index = scene.plan.thing_called(thing).unwrap_or_default();
+    let position_at =
+        |time: StageTime| scene.plan.placement(index, time).map_or(DVec3::ZERO, |place| place.position);
+    let elements = scene.script.tree().elements();
+    let start = match at {
+        PlaceOf::Action(element, begin) => {
+            elements[element].value("at").and_then(vector).unwrap_or_else(|| position_at(begin))
         }
+        PlaceOf::Cast(element) => elements[element].value("at").and_then(vector).unwrap_or_default(),
     };
-    let value = position.to_array().map(number_text).join(" ");
-    ScriptDraft::of(scene.script.tree()).with(&[(at.element(), "at", Some(value))])?.finish()
+    let value = (start + (position - position_at(time))).to_array().map(number_text).join(" ");
+    let mut changes = vec![(at.element(), "at", Some(value))];
+    if let PlaceOf::Action(element, begin) = at
+        && elements[element].attribute("facing").is_none()
+        && elements[element].value("at").is_some_and(|at| is_mark(scene, at))
+    {
+        // The direction of the mark stays.
+        let facing = scene.plan.placement(index, begin).map_or(0.0, |place| place.facing.to_degrees());
+        changes.push((element, "facing", Some(number_text(facing))));
+    }
+    ScriptDraft::of(scene.script).with(&changes)?.finish()
+}
+
+fn is_mark(scene: &GestureScene<'_>, id: &str) -> bool {
+    let thing = scene.plan.thing_called(id).and_then(|thing| scene.plan.things().get(thing));
+    thing.is_some_and(|thing| thing.kind == "mark")
 }
 
 /// Turns a thing so that it has the direction `degrees` at `time`: 0 looks along +z, 90 along +x.
@@ -59,21 +74,22 @@ pub fn face_thing(
     let value = number_text(turned);
     let is_written = element.attribute("facing").is_some();
     let value = (is_written || value != "0").then_some(value);
-    ScriptDraft::of(scene.script.tree()).with(&[(at.element(), "facing", value)])?.finish()
+    ScriptDraft::of(scene.script).with(&[(at.element(), "facing", value)])?.finish()
 }
 
 /// The element that puts a thing where it is.
+#[derive(Clone, Copy)]
 enum PlaceOf {
     /// Its element in the cast.
     Cast(usize),
-    /// An action `place`.
-    Action(usize),
+    /// An action `place`, with its begin.
+    Action(usize, StageTime),
 }
 
 impl PlaceOf {
     fn element(&self) -> usize {
         match self {
-            Self::Cast(element) | Self::Action(element) => *element,
+            Self::Cast(element) | Self::Action(element, _) => *element,
         }
     }
 }
@@ -92,13 +108,16 @@ fn starting_place(
             && scene.times(action).begin <= time
     });
     if let Some(last) = places.max_by_key(|&action| (scene.times(action).begin, action)) {
-        return Ok(PlaceOf::Action(scene.script.actions()[last].element));
+        return Ok(PlaceOf::Action(scene.script.actions()[last].element, scene.times(last).begin));
     }
     let cast = tree
         .elements()
         .iter()
         .position(|element| element.value("id") == Some(thing) && scene.script.thing_called(thing).is_some());
     let Some(cast) = cast else { return refused(format!("No thing of the cast has the id \"{thing}\"")) };
+    if tree.elements()[cast].is_shared {
+        return refused(format!("\"{thing}\" belongs to the project: change it there"));
+    }
     if tree.elements()[cast].row.attribute(attribute).is_none() {
         return refused(format!("A {} has no place of its own", tree.elements()[cast].row.name));
     }

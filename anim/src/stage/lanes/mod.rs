@@ -16,25 +16,11 @@ use super::StagePlan;
 use super::script::StageScript;
 use super::table::ElementGroup;
 use super::time::StageTime;
-
-/// What a lane is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LaneSubject {
-    /// The cameras that are seen: its bars are the shots.
-    Shots,
-    /// A thing of the cast, by its position in [`StageScript::things`].
-    Thing(usize),
-    /// Sounds.
-    Sounds,
-    /// Titles.
-    Titles,
-}
+use std::collections::HashMap;
 
 /// A lane of the timeline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneLane {
-    /// What it is for.
-    pub subject: LaneSubject,
     /// Name of the thing, or of what it contains.
     pub name: Box<str>,
     /// Name of the element of the thing; empty for other lanes.
@@ -60,23 +46,21 @@ impl SceneLanes {
     /// Roles, props, lights and effects have a lane even without actions; cameras only where they do more than being seen; paths and
     /// marks none. Containers and waits have no bars.
     pub fn new(script: &StageScript, plan: &StagePlan) -> Self {
-        let mut shots = lane(LaneSubject::Shots, "Shots", "");
+        let mut shots = lane("Shots", "");
         let mut things: Vec<SceneLane> = script
             .things()
-            .enumerate()
-            .map(|(at, thing)| {
-                lane(LaneSubject::Thing(at), thing.value("id").unwrap_or_default(), thing.row.name)
-            })
+            .map(|thing| lane(thing.value("id").unwrap_or_default(), thing.row.name))
             .collect();
-        let (mut sounds, mut titles) =
-            (lane(LaneSubject::Sounds, "Sounds", ""), lane(LaneSubject::Titles, "Titles", ""));
+        let (mut sounds, mut titles) = (lane("Sounds", ""), lane("Titles", ""));
         let mut end = plan.length();
+        let stops: HashMap<usize, StageTime> =
+            plan.sounds().iter().map(|sound| (sound.action(), sound.stop())).collect();
         for action in 1..script.actions().len().min(plan.schedule().times().len()) {
             let element = script.element(action);
             if element.row.group != ElementGroup::Action || element.row.name == "wait" {
                 continue;
             }
-            let bar = SceneBar::new(script, plan, action);
+            let bar = SceneBar::new(script, plan, action, stops.get(&action).copied());
             if !script.actions()[action].passive {
                 end = end.max(bar.end);
             }
@@ -112,6 +96,6 @@ impl SceneLanes {
     }
 }
 
-fn lane(subject: LaneSubject, name: &str, kind: &'static str) -> SceneLane {
-    SceneLane { subject, name: name.into(), kind, bars: Vec::new(), rows: 1 }
+fn lane(name: &str, kind: &'static str) -> SceneLane {
+    SceneLane { name: name.into(), kind, bars: Vec::new(), rows: 1 }
 }

@@ -135,7 +135,7 @@ fn moved_text(workspace: &mut Workspace, moved: &Camera) -> Result<ScriptChange,
     let eye = moved.eye();
     let text = place_text(&base, &base.script, thing, time, eye)?;
     let ahead = -moved.back() * distance_of_look(&base, id, now.things[thing].transform.translation);
-    let text = look_text(&text, id, eye + ahead)?;
+    let text = look_text(&base.script, &text, id, eye + ahead)?;
     Ok(ScriptChange { from: Arc::clone(base.text()), text, label: "Move camera", gesture })
 }
 

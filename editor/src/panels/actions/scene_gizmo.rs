@@ -106,7 +106,7 @@ fn text(workspace: &mut Workspace) -> Result<ScriptChange, GestureRefusal> {
     for (thing, now, before) in moved {
         let text = thing_text(&base, &script, (thing, time), tool, [now, before])?;
         if *text != **script.tree().text() {
-            script = Arc::new(read(text)?);
+            script = Arc::new(reread(&script, text)?);
         }
     }
     let label = match tool {
@@ -139,7 +139,7 @@ fn thing_text(
         Tool::Rotate if planned.kind == "camera" => {
             let ahead = now.rotation * before.rotation.inverse() * direction_of_camera(base, thing, time);
             let look = now.translation + ahead * distance_of_look(base, &planned.id, before.translation);
-            look_text(script.tree().text(), &planned.id, look)
+            look_text(script, script.tree().text(), &planned.id, look)
         }
         Tool::Rotate => {
             let scene = GestureScene { script, plan: &base.plan };
@@ -178,9 +178,14 @@ pub(super) fn place_text(
     place_thing(&scene, id, time, rounded(position))
 }
 
-/// Returns a text in which a camera of the cast looks at a point.
-pub(super) fn look_text(text: &str, id: &str, look: Vec3) -> Result<String, GestureRefusal> {
-    let script = read(text.to_owned())?;
+/// Returns the text in which a camera of the cast looks at a point; `script` is the one from which `text` was made.
+pub(super) fn look_text(
+    script: &StageScript,
+    text: &str,
+    id: &str,
+    look: Vec3,
+) -> Result<String, GestureRefusal> {
+    let script = reread(script, text.to_owned())?;
     let value = rounded(look).to_array().map(|number| number.to_string()).join(" ");
     set(&script, id, "look", &value)
 }
@@ -215,13 +220,15 @@ fn set(script: &StageScript, id: &str, attribute: &str, value: &str) -> Result<S
     Ok(splices.apply(tree.text()))
 }
 
-fn read(text: String) -> Result<StageScript, GestureRefusal> {
-    StageScript::read(text)
+/// Returns the script of a new text, with the project of the old one.
+fn reread(script: &StageScript, text: String) -> Result<StageScript, GestureRefusal> {
+    script
+        .reread(text)
         .map_err(|errors| GestureRefusal(errors.first().map_or(String::new(), |error| error.text())))
 }
 
 fn read_if_new(script: &StageScript, text: String) -> Result<Option<StageScript>, GestureRefusal> {
-    if *text == **script.tree().text() { Ok(None) } else { read(text).map(Some) }
+    if *text == **script.tree().text() { Ok(None) } else { reread(script, text).map(Some) }
 }
 
 /// Returns the direction in which a camera looks.

@@ -40,7 +40,7 @@ pub(super) fn gesture(
 pub(in crate::panels) fn add(workspace: &mut Workspace, thing: &NewThing) -> Option<Effect> {
     let mut added = None;
     let effect = gesture(workspace, thing.label(), |base| {
-        let (text, id) = new_thing_text(base.text(), thing)?;
+        let (text, id) = new_thing_text(&base.script, base.text(), thing)?;
         added = Some(id);
         Ok(text)
     });

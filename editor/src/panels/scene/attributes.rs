@@ -186,7 +186,8 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         let text = splices.map(|splices| splices.apply(tree.text()));
         let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
         // A reference to something that does not exist is refused with its reason.
-        StageScript::read(text.as_str())
+        base.script
+            .reread(text.as_str())
             .map_err(|errors| refused(errors.first().map_or(String::new(), |error| error.text())))?;
         Ok(SceneRequest::Text(ScriptChange {
             from: Arc::clone(tree.text()),
