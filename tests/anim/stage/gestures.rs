@@ -5,8 +5,8 @@ use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, attach_thing, cut_to,
-    delete_clip, duplicate_clip, face_thing, follow_path, move_clip, place_thing, set_fade, set_repeat,
-    set_speed, trim_end, trim_start,
+    delete_clip, duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed,
+    trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::script::{StageRepeat, StageScript};
@@ -52,7 +52,7 @@ fn moved(scene: &GestureScene<'_>, id: &str, to: f64) -> Result<String, GestureR
     move_clip(scene, called(scene, id), seconds(to), SequenceOrder::Keep, Followers::Follow)
 }
 
-const PAR: &str = "<par id=\"all\" begin=\"1\">\n  <!-- looks -->\n  <play id=\"a\" who=\"anna\" take=\"Survey\"/>\n  <play id=\"b\" who=\"ben\" take=\"Walk\" begin=\"a.end-12f\"/>\n</par>";
+pub(super) const PAR: &str = "<par id=\"all\" begin=\"1\">\n  <!-- looks -->\n  <play id=\"a\" who=\"anna\" take=\"Survey\"/>\n  <play id=\"b\" who=\"ben\" take=\"Walk\" begin=\"a.end-12f\"/>\n</par>";
 
 const SEQ: &str = "<seq>\n  <play id=\"a\" who=\"anna\" take=\"Walk\" repeat=\"2\"/>\n  <play id=\"b\" who=\"anna\" take=\"Survey\" fade-in=\"6f\"/>\n  <play id=\"c\" who=\"anna\" take=\"Run\" begin=\"0.5\"/>\n</seq>";
 
@@ -413,32 +413,4 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
     }
     println!("{done:?}, {refused} refused");
     assert!(done.len() == 10 && done.values().all(|&count| count > 15), "{done:?}");
-}
-
-#[test]
-fn a_role_that_follows_a_path_gets_one_line_and_what_follows_no_path_is_refused() {
-    let text = fox_script(PAR);
-    let path = read(&text)
-        .things()
-        .find(|thing| thing.row.name == "path")
-        .and_then(|path| path.value("id").map(str::to_owned));
-    let path = path.expect("a path in the cast");
-    let lines = changed(PAR, |scene| follow_path(scene, "anna", &path, Some("Walk"), seconds(2.0)));
-    assert_eq!(lines, [format!("<move who=\"anna\" path=\"{path}\" take=\"Walk\" begin=\"1\"/>")]);
-    for (who, way) in [("nobody", path.as_str()), ("anna", "ben"), (path.as_str(), path.as_str())] {
-        let (_, refused) = gesture(PAR, |scene| follow_path(scene, who, way, None, seconds(0.0)));
-        assert!(refused.is_err(), "{who} follows {way}");
-    }
-}
-
-#[test]
-fn everything_that_moves_follows_a_path() {
-    for who in ["sun", "rain", "wide", "sword"] {
-        let (_, new) = gesture(PAR, |scene| follow_path(scene, who, "aisle", None, seconds(2.0)));
-        let new = new.unwrap_or_else(|refusal| panic!("{refusal}"));
-        assert!(new.contains(&format!("<move who=\"{who}\" path=\"aisle\"")), "{new}");
-    }
-    let (_, refused) = gesture(PAR, |scene| follow_path(scene, "door", "aisle", None, seconds(0.0)));
-    let wanted = "\"door\" is no role or prop or camera or light or effect, so it follows no path";
-    assert_eq!(refused.unwrap_err().to_string(), wanted);
 }

@@ -132,7 +132,7 @@ fn looks_of_those_who_hold_count_as_work_and_the_error_is_at_the_detachment() {
     };
     let held: String = (0..6_000).map(held).collect();
     let text = with_marks(2, &format!("{looks}{held}")).replace("<cast>", "<cast><camera id=\"c\"/>");
-    let errors = StagePlan::new(&read(&text), &StageAssets::default()).err().expect("too much");
+    let Err(errors) = StagePlan::new(&read(&text), &StageAssets::default()) else { panic!("too much") };
     assert!(errors[0].message.contains("too many things hold or see what is detached here and before"));
     let line = text.lines().nth(errors[0].place.line as usize - 1).unwrap_or_default();
     assert!(

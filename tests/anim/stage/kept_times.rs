@@ -4,15 +4,11 @@ use super::actors::{assets, at, bits, fox, planned, seconds};
 use super::gestures::{called, changed, gesture};
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureScene, SequenceOrder, add_clip, delete_clip, duplicate_clip, move_clip, trim_end,
-    trim_start,
+    Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, delete_clip, duplicate_clip, move_clip,
+    trim_end, trim_start,
 };
 
-fn moved(
-    scene: &GestureScene<'_>,
-    id: &str,
-    to: f64,
-) -> Result<String, dragonfly_anim::stage::gesture::GestureRefusal> {
+fn moved(scene: &GestureScene<'_>, id: &str, to: f64) -> Result<String, GestureRefusal> {
     move_clip(scene, called(scene, id), seconds(to), SequenceOrder::Keep, Followers::Follow)
 }
 
@@ -77,11 +73,8 @@ const PREV: &str = "<par>\n<play id=\"a\" who=\"anna\" take=\"Survey\" begin=\"1
 fn no_action_gets_another_one_before_it_that_it_refers_to() {
     let wanted =
         "<play id=\"b\"> (line 4) begins or ends relative to the action before it: change that first";
-    let refusal = |(_, new): (String, Result<String, _>)| -> String {
-        new.map_or_else(
-            |refusal: dragonfly_anim::stage::gesture::GestureRefusal| refusal.to_string(),
-            |text| text,
-        )
+    let refusal = |(_, new): (String, Result<String, GestureRefusal>)| -> String {
+        new.unwrap_or_else(|refusal| refusal.to_string())
     };
     assert_eq!(refusal(gesture(PREV, |s| delete_clip(s, called(s, "a"), Followers::Follow))), wanted);
     assert_eq!(refusal(gesture(PREV, |s| duplicate_clip(s, called(s, "a")))), wanted);
@@ -133,7 +126,7 @@ fn a_start_is_not_trimmed_where_the_rest_would_move() {
     let refusal = |clip: &str| {
         gesture(clip, |scene| trim_start(scene, called(scene, "x"), seconds(0.25)))
             .1
-            .map_or_else(|no| no.to_string(), |text| text)
+            .unwrap_or_else(|no| no.to_string())
     };
     let wanted = "It plays more than once: trim its end, or let it play once";
     assert_eq!(refusal(r#"<play id="x" who="anna" take="Walk" repeat="fill" dur="9"/>"#), wanted);

@@ -3,6 +3,7 @@
 mod actors;
 mod errors;
 mod feet;
+mod followed_paths;
 mod gestures;
 mod gestures_in_projects;
 mod holding;
