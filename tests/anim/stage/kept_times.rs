@@ -1,4 +1,4 @@
-//! What stays where it is when a clip is moved, trimmed, copied or deleted: ends, rests, and those who refer to it as the one before.
+//! Clips are moved, trimmed, copied and deleted: ends, the rest of a clip, and references to the one before stay.
 
 use super::actors::{assets, at, bits, fox, planned, seconds};
 use super::gestures::{called, changed, gesture};
@@ -31,7 +31,7 @@ fn the_end_of_a_moved_clip_moves_with_its_begin() {
         move_clip(scene, called(scene, "x"), seconds(0.0), SequenceOrder::Change, Followers::Follow)
     });
     assert_eq!(times(&new.expect("a text"), "x"), [0.0, 0.5]);
-    // What follows moves along, or is kept where it is.
+    // The next one moves along, or stays.
     let pair = "<seq>\n<play id=\"x\" who=\"anna\" take=\"Survey\" end=\"2\"/>\n<play id=\"y\" who=\"anna\" take=\"Run\"/>\n</seq>";
     for (followers, begin) in [(Followers::Follow, 2.5), (Followers::Stay, 2.0)] {
         let (_, new) = gesture(pair, |scene| {
@@ -150,7 +150,7 @@ fn a_clip_that_repeats_ends_where_the_pointer_is_within_a_tenth_of_a_millisecond
         let new = new.expect("a text");
         assert!((times(&new, "x")[1] - to).abs() < 1e-4, "{} instead of {to}: {new}", times(&new, "x")[1]);
     }
-    // What follows stays by what is written.
+    // The next one stays by the number that is written.
     let pair = format!("<seq>\n{slow}\n<wait id=\"y\" begin=\"200\" dur=\"1\"/>\n</seq>");
     let (old, new) =
         gesture(&pair, |scene| trim_end(scene, called(scene, "x"), seconds(100.017_3), Followers::Stay));

@@ -76,7 +76,7 @@ fn things_that_a_project_shares_are_suggested() {
     );
     let new = text.replace("<shot who=\"crane\"/>", "<move who=\"anna\" to=\"g|\"/>");
     assert!(taken(&new, "gate", &names).contains("to=\"gate|\""));
-    // What the text itself has is suggested once.
+    // A thing of the text itself is suggested once.
     let at = new.find('|').expect("a cursor");
     let all = completions(&new.replace("g|", ""), at - 1, &names).expect("suggestions");
     assert_eq!(all.items.iter().filter(|item| item.label == "anna").count(), 1);

@@ -1,4 +1,4 @@
-//! What the elements of actions say about time, and who is before and after whom.
+//! Times that the elements of actions have, and the actions before and after them.
 
 use super::{ScriptElement, StageScript};
 use crate::stage::time::{Decimal, StageTime, parse_time};
@@ -56,7 +56,7 @@ impl StageScript {
         self.actions.get(action).and_then(|own| own.parent).is_some_and(|parent| self.is_seq(parent))
     }
 
-    /// Returns whether the begin or end of an action refers to the one before it as `prev`.
+    /// Returns whether `begin` or `end` of an action refers to the one before it as `prev`.
     pub(in crate::stage) fn refers_to_prev(&self, action: usize) -> bool {
         let element = self.element(action);
         ["begin", "end"]
