@@ -28,7 +28,10 @@ fn opened(path: &str) -> Option<Effect> {
 #[test]
 fn several_dropped_models_are_added_in_one_step_and_selected() {
     let mut window = scene(FOXES).window();
-    assert_eq!(drop_files(&mut window, &["Fox.glb", "notes.txt", "Fox.glb", "step.wav"]), None);
+    assert_eq!(
+        drop_files(&mut window, &["/scenes/Fox.glb", "notes.txt", "/scenes/Fox.glb", "step.wav"]),
+        None
+    );
     let new = new_lines(FOXES, &text(&window));
     assert_eq!(new.len(), 2, "{new:?}");
     for (line, id) in new.iter().zip(["fox", "fox-2"]) {

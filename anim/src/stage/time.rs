@@ -119,13 +119,17 @@ impl Decimal {
         }
         let (part, rest) = part.split_at_checked(Self::MOST_SCALE as usize).unwrap_or((part, ""));
         let is_rounded_up = rest.bytes().next().is_some_and(|digit| digit >= b'5');
-        let part = if rest.is_empty() { part.trim_end_matches('0') } else { part };
         let whole = whole.trim_start_matches('0');
         if whole.len() > 9 {
             return None;
         }
-        let digits = format!("0{whole}{part}").parse::<i64>().ok()? + i64::from(is_rounded_up);
-        Some(Self { digits: sign * digits, scale: part.len() as u32 })
+        let mut digits = format!("0{whole}{part}").parse::<i64>().ok()? + i64::from(is_rounded_up);
+        let mut scale = part.len() as u32;
+        // One number has one form: what is equal is the same.
+        while scale > 0 && digits % 10 == 0 {
+            (digits, scale) = (digits / 10, scale - 1);
+        }
+        Some(Self { digits: sign * digits, scale })
     }
 
     /// Returns whether the number is 0.

@@ -199,3 +199,13 @@ fn the_nearest_frame_of_a_time_is_exact_at_every_rate() {
         assert!((found.ticks() - between.ticks()).abs() <= 1, "a time between two frames stays there");
     }
 }
+
+#[test]
+fn a_number_is_the_same_with_any_number_of_zeros_at_its_end() {
+    assert_eq!(Decimal::parse("1.0000000000"), Some(Decimal::ONE));
+    assert_eq!(Decimal::parse("2.50000000000000"), Decimal::parse("2.5"));
+    assert_eq!(Decimal::parse("0.9999999999"), Some(Decimal::ONE), "rounded to nine decimals");
+    assert_eq!(Decimal::parse("-1.4999999996"), Decimal::parse("-1.5"));
+    assert_eq!(StageRate::parse("24.0000000000"), StageRate::new(24, 1));
+    assert_eq!(StageRate::parse("23.97600000000"), StageRate::parse("23.976"));
+}

@@ -20,7 +20,8 @@
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
-//! and a `begin` that refers to another action keeps that reference.
+//! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
+//! `prev` would have another one before it is refused, and so is one of a thing that belongs to the project: it is in another text.
 
 mod attributes;
 mod begin;

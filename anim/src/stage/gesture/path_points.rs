@@ -33,7 +33,7 @@ pub fn move_path_point(
     }
     let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
     let value = format!("{}{point}{}", &written[..range.start], &written[range.end..]);
-    ScriptDraft::of(tree).with(&[(element, "points", Some(value))])?.finish()
+    ScriptDraft::of(script).with(&[(element, "points", Some(value))])?.finish()
 }
 
 /// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.

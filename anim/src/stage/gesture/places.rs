@@ -21,10 +21,10 @@ pub fn place_thing(
     time: StageTime,
     position: DVec3,
 ) -> Result<String, GestureRefusal> {
-    spliced_text(scene.script, place_splices(scene, thing, time, position)?)
+    spliced_text(scene.script, place_splices(scene, thing, time, position, None)?)
 }
 
-/// Returns the replacements of [`place_thing`]; the new text is not checked.
+/// Returns the replacements of [`place_thing`], and of [`face_thing`] where there are `degrees`; the new text is not checked.
 ///
 /// # Errors
 ///
@@ -34,23 +34,43 @@ pub fn place_splices(
     thing: &str,
     time: StageTime,
     position: DVec3,
+    degrees: Option<f64>,
 ) -> Result<TextSplices, GestureRefusal> {
     let at = starting_place(scene, thing, time, "at")?;
     if !position.is_finite() || position.abs().max_element() >= 1e6 {
         return refused("The position is too far away");
     }
-    let position = match at {
-        PlaceOf::Action(_) => position,
-        PlaceOf::Cast(element) => {
-            let index = scene.plan.thing_called(thing).unwrap_or_default();
-            let now = scene.plan.placement(index, time).map_or(DVec3::ZERO, |place| place.position);
-            let start =
-                scene.script.tree().elements()[element].value("at").and_then(vector).unwrap_or_default();
-            start + (position - now)
+    // The start moves by as much as the thing, which may have traveled since.
+    let index = scene.plan.thing_called(thing).unwrap_or_default();
+    let position_at =
+        |time: StageTime| scene.plan.placement(index, time).map_or(DVec3::ZERO, |place| place.position);
+    let elements = scene.script.tree().elements();
+    let start = match at {
+        PlaceOf::Action(element, begin) => {
+            elements[element].value("at").and_then(vector).unwrap_or_else(|| position_at(begin))
         }
+        PlaceOf::Cast(element) => elements[element].value("at").and_then(vector).unwrap_or_default(),
     };
-    let value = position.to_array().map(number_text).join(" ");
-    written(set_attribute(scene.script.tree(), at.element(), "at", &value))
+    let value = (start + (position - position_at(time))).to_array().map(number_text).join(" ");
+    let placed = written(scene, at, "at", &value)?;
+    let faced = match (degrees, at) {
+        (Some(degrees), _) => face_splices(scene, thing, time, degrees)?,
+        // The direction of the mark stays.
+        (None, PlaceOf::Action(element, begin)) if has_facing_of_mark(scene, element) => {
+            let facing = scene.plan.placement(index, begin).map_or(0.0, |place| place.facing.to_degrees());
+            written(scene, at, "facing", &number_text(facing))?
+        }
+        (None, PlaceOf::Action(..) | PlaceOf::Cast(_)) => TextSplices::default(),
+    };
+    TextSplices::joined([placed, faced]).ok_or_else(no_place)
+}
+
+/// Returns whether an element puts a thing at a mark and does not turn it, so that it has the direction of the mark.
+fn has_facing_of_mark(scene: &GestureScene<'_>, element: usize) -> bool {
+    let element = &scene.script.tree().elements()[element];
+    let mark = element.value("at").filter(|_| element.attribute("facing").is_none());
+    let thing = mark.and_then(|id| scene.plan.things().get(scene.plan.thing_called(id)?));
+    thing.is_some_and(|thing| thing.kind == "mark")
 }
 
 /// Turns a thing so that it has the direction `degrees` at `time`: 0 looks along +z, 90 along +x.
@@ -84,31 +104,40 @@ pub fn face_splices(
     }
     // From -180 to 180.
     let turned = degrees - 360.0 * ((degrees + 180.0) / 360.0).floor();
-    let (tree, element) = (scene.script.tree(), at.element());
     let value = number_text(turned);
-    let is_written = tree.elements()[element].attribute("facing").is_some();
-    match is_written || value != "0" {
-        true => written(set_attribute(tree, element, "facing", &value)),
+    let is_written = scene.script.tree().elements()[at.element()].attribute("facing").is_some();
+    match is_written || value != "0" || has_facing_of_mark(scene, at.element()) {
+        true => written(scene, at, "facing", &value),
         false => Ok(TextSplices::default()),
     }
 }
 
-fn written(splices: Option<TextSplices>) -> Result<TextSplices, GestureRefusal> {
-    splices.ok_or_else(|| GestureRefusal("There is no place for it in the script".to_owned()))
+fn written(
+    scene: &GestureScene<'_>,
+    at: PlaceOf,
+    name: &str,
+    value: &str,
+) -> Result<TextSplices, GestureRefusal> {
+    set_attribute(scene.script.tree(), at.element(), name, value).ok_or_else(no_place)
+}
+
+fn no_place() -> GestureRefusal {
+    GestureRefusal("There is no place for it in the script".to_owned())
 }
 
 /// The element that puts a thing where it is.
+#[derive(Clone, Copy)]
 enum PlaceOf {
     /// Its element in the cast.
     Cast(usize),
-    /// An action `place`.
-    Action(usize),
+    /// An action `place`, with its begin.
+    Action(usize, StageTime),
 }
 
 impl PlaceOf {
     fn element(&self) -> usize {
         match self {
-            Self::Cast(element) | Self::Action(element) => *element,
+            Self::Cast(element) | Self::Action(element, _) => *element,
         }
     }
 }
@@ -127,11 +156,14 @@ fn starting_place(
             && scene.times(action).begin <= time
     });
     if let Some(last) = places.max_by_key(|&action| (scene.times(action).begin, action)) {
-        return Ok(PlaceOf::Action(scene.script.actions()[last].element));
+        return Ok(PlaceOf::Action(scene.script.actions()[last].element, scene.times(last).begin));
     }
     let Some(cast) = scene.script.thing_element(thing) else {
         return refused(format!("No thing of the cast has the id \"{thing}\""));
     };
+    if tree.elements()[cast].is_shared {
+        return refused(format!("\"{thing}\" belongs to the project: change it there"));
+    }
     if tree.elements()[cast].row.attribute(attribute).is_none() {
         return refused(format!("A {} has no place of its own", tree.elements()[cast].row.name));
     }

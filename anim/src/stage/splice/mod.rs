@@ -127,7 +127,7 @@ impl TextSplices {
 }
 
 /// Returns a value as it is written between quotes of this kind.
-pub(super) fn escaped(value: &str, quote: char) -> String {
+pub(in crate::stage) fn escaped(value: &str, quote: char) -> String {
     let mut text = String::with_capacity(value.len());
     for letter in value.chars() {
         match letter {

@@ -152,7 +152,7 @@ fn moved_camera(
     }
     let (eye, before) = (moved.eye(), moment.things.things[thing].transform.translation);
     let look = eye - moved.back() * distance_of_look(&base, id, before);
-    let parts = vec![moment.placed(thing, eye)?, moment.looking(id, look)?];
+    let parts = vec![moment.placed(thing, eye, None)?, moment.looking(id, look)?];
     spliced(workspace, &base, parts, "Move camera", gesture)
 }
 

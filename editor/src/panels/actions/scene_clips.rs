@@ -11,7 +11,7 @@ use dragonfly_anim::stage::gesture::{
     Followers, GestureRefusal, SequenceOrder, cut_to, delete_clip, duplicate_clip, move_clip, trim_end,
     trim_start,
 };
-use dragonfly_anim::stage::script::{ScriptTree, StageScript};
+use dragonfly_anim::stage::script::ScriptTree;
 use dragonfly_anim::stage::splice::{
     AttachedComments, TextSplices, delete as delete_element, duplicate as duplicate_element, is_used,
 };
@@ -123,8 +123,8 @@ fn each_thing(
             tree = ScriptTree::read(text)?;
         }
     }
-    StageScript::read(tree.text().clone())?;
-    Ok(tree.text().to_string())
+    let script = base.script.with_tree(tree)?;
+    Ok(script.tree().text().to_string())
 }
 
 /// Inserts a shot of the camera after the one that is seen at the playhead.

@@ -193,24 +193,36 @@ impl BaseMoment<'_> {
     ) -> Result<(), GestureRefusal> {
         let planned = self.base.plan.things().get(thing);
         let planned = planned.ok_or_else(|| GestureRefusal("The thing is gone".to_owned()))?;
-        if tool == Tool::Move || now.translation != before.translation {
-            parts.push(self.placed(thing, now.translation)?);
+        let is_turned = tool == Tool::Rotate && planned.kind != "camera";
+        let facing = is_turned.then(|| facing(now.rotation));
+        let is_moved = tool == Tool::Move || now.translation != before.translation;
+        match facing {
+            _ if is_moved => parts.push(self.placed(thing, now.translation, facing)?),
+            Some(facing) => {
+                parts.push(face_splices(&self.base.scene(), &planned.id, self.time, facing)?);
+            }
+            None => {}
         }
-        parts.push(match tool {
-            Tool::Move => return Ok(()),
-            Tool::Rotate if planned.kind == "camera" => {
+        match tool {
+            Tool::Rotate if !is_turned => {
                 let ahead = now.rotation * before.rotation.inverse() * self.direction_of_camera(thing);
                 let distance = distance_of_look(self.base, &planned.id, before.translation);
-                self.looking(&planned.id, now.translation + ahead * distance)?
+                parts.push(self.looking(&planned.id, now.translation + ahead * distance)?);
             }
-            Tool::Rotate => face_splices(&self.base.scene(), &planned.id, self.time, facing(now.rotation))?,
-            Tool::Scale => self.scaled(&planned.id, now.scale / before.scale)?,
-        });
+            Tool::Scale => parts.push(self.scaled(&planned.id, now.scale / before.scale)?),
+            Tool::Move | Tool::Rotate => {}
+        }
         Ok(())
     }
 
-    /// Returns the replacements that put a thing at `position`. Refused where something carries it, and where it follows a path.
-    pub(super) fn placed(&self, thing: usize, position: Vec3) -> Result<TextSplices, GestureRefusal> {
+    /// Returns the replacements that put a thing at `position`, with another direction where there is one, degrees. Refused where something carries it, and
+    /// where it follows a path.
+    pub(super) fn placed(
+        &self,
+        thing: usize,
+        position: Vec3,
+        facing: Option<f64>,
+    ) -> Result<TextSplices, GestureRefusal> {
         let (script, plan) = (&self.base.script, &self.base.plan);
         let id = &plan.things()[thing].id;
         let own = plan.placement(thing, self.time).unwrap_or_default().position.as_vec3();
@@ -228,7 +240,7 @@ impl BaseMoment<'_> {
         if let Some(path) = follows.and_then(|action| script.element(action).value("path")) {
             return Err(GestureRefusal(format!("{id} follows the path {path} at this time: move the path")));
         }
-        place_splices(&self.base.scene(), id, self.time, rounded(position))
+        place_splices(&self.base.scene(), id, self.time, rounded(position), facing)
     }
 
     /// Returns the replacements with which a camera of the cast looks at a point.

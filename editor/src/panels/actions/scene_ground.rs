@@ -42,7 +42,7 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
         }
         let moment = BaseMoment { base, things: &state, time };
         let placed = |(thing, height): (usize, f32)| {
-            moment.placed(thing, state.things[thing].transform.translation.with_y(height))
+            moment.placed(thing, state.things[thing].transform.translation.with_y(height), None)
         };
         let parts: Result<Vec<_>, GestureRefusal> = standing.into_iter().map(placed).collect();
         spliced_text(&base.script, joined(parts?)?)

@@ -239,7 +239,8 @@ fn lines_edit_of(
     let refused = "The line cannot be written";
     if let Some(name) = project.lines() {
         let file = scene.texts.called(name).ok_or("The file of lines is missing")?;
-        let lines = DrawnLines::read(Arc::clone(&file.text)).map_err(|_| "The file of lines has errors")?;
+        let lines = DrawnLines::read_of(Arc::clone(&file.text), Some(project));
+        let lines = lines.map_err(|_| "The file of lines has errors")?;
         let splices = change(&lines).ok_or(refused)?;
         check(scene, &lines, renamed, &splices.apply(&file.text))?;
         let edit = EditScript::of(&file.text, &splices, label);
@@ -278,7 +279,7 @@ fn lines_edit_of(
 
 /// Refuses a text of lines that cannot be read, and one without a line that a path of the script needs, apart from the one that is `renamed`.
 fn check(scene: &SceneView, before: &DrawnLines, renamed: Option<&str>, text: &str) -> Result<(), String> {
-    let after = DrawnLines::read(text)
+    let after = DrawnLines::read_of(text, scene.project.as_deref())
         .map_err(|errors| errors.first().map_or_else(String::new, |error| sentence(&error.text())))?;
     let things = scene.script.iter().flat_map(|script| script.things());
     let needed = things.filter_map(|thing| Some((thing.value("id")?, thing.value("line")?)));

@@ -54,7 +54,7 @@ pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing]) -> Option<
     let effect = gesture(workspace, label, |base| {
         let mut text = Arc::clone(base.text());
         for thing in things {
-            let (next, id) = new_thing_text(&text, thing)?;
+            let (next, id) = new_thing_text(&base.script, &text, thing)?;
             added.push(id);
             text = next.into();
         }

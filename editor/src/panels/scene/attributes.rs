@@ -181,7 +181,7 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         let text = splices.map(|splices| splices.apply(tree.text()));
         let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
         // A reference to something that does not exist is refused with its reason.
-        StageScript::read(text.as_str())?;
+        base.script.reread(text.as_str())?;
         Ok(SceneRequest::Text(ScriptChange {
             from: Arc::clone(tree.text()),
             text,

@@ -25,6 +25,7 @@ use egui::{
 };
 use lines::{byte_of, characters_before, lines_of, moved_position};
 use popup::{SuggestionKey, SuggestionList};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
@@ -246,8 +247,14 @@ impl ScriptPanel {
     }
 
     fn suggest(&mut self, scene: &SceneView, at: usize, asked: bool) {
-        let files: Vec<&str> = scene.models.keys().map(String::as_str).collect();
-        let names = CompletionNames { plan: scene.plan.as_deref(), files: &files };
+        let models: Vec<&str> = scene.models.keys().map(String::as_str).collect();
+        let lines = scene.lines.as_ref().map_or(&[][..], |lines| lines.list());
+        let lines: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
+        let played = scene.plan.iter().flat_map(|plan| plan.sounds());
+        let sounds: BTreeSet<&str> = played.map(|sound| &*sound.source).collect();
+        let sounds = Vec::from_iter(sounds);
+        let names =
+            CompletionNames { plan: scene.plan.as_deref(), models: &models, lines: &lines, sounds: &sounds };
         let found = completions(&self.buffer, at, &names);
         // Unasked, a list appears only where something of the word is typed, or a tag or value begins.
         let begins = self.buffer.get(..at).is_some_and(|text| text.ends_with(['<', '"', '\'', '.', '/']));
