@@ -4,9 +4,9 @@ use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::scene_lines::{at, run, send};
 use crate::workbench::Window;
 use dragonfly::control::{InputEvent, Key};
-use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
 use dragonfly_picture::PosedScene;
 use glam::DVec3;
@@ -78,7 +78,10 @@ fn a_model_that_is_dropped_stands_under_the_pointer() {
     let pointer = at(&window, wanted);
     send(&mut window, InputEvent::MouseMove(pointer));
     let effect = window.state_mut().state.execute(Request::DropRole("/scenes/Fox.glb".into()));
-    let Some(dragonfly::panels::Effect::Change(change)) = effect else { panic!("{effect:?}") };
+    let change = match effect {
+        Some(Effect::Change(change)) => change,
+        other => panic!("{other:?}"),
+    };
     window.state_mut().change(change);
     let new = new_lines(FOXES, &text(&window));
     assert_eq!(new.len(), 1, "{new:?}");
