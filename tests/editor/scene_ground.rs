@@ -4,9 +4,9 @@ use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::scene_lines::{at, run, send};
 use crate::workbench::Window;
 use dragonfly::control::{InputEvent, Key};
-use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
 use dragonfly_picture::PosedScene;
 use glam::DVec3;
@@ -77,7 +77,10 @@ fn dropped_at(window: &mut Window, place: DVec3, files: &[&str]) -> Vec<DVec3> {
     send(window, InputEvent::MouseMove(pointer));
     let files = files.iter().map(|file| (*file).into()).collect();
     let effect = window.state_mut().state.execute(Request::Dropped(files));
-    let Some(dragonfly::panels::Effect::Change(change)) = effect else { panic!("{effect:?}") };
+    let change = match effect {
+        Some(Effect::Change(change)) => change,
+        other => panic!("{other:?}"),
+    };
     window.state_mut().change(change);
     let place_of = |line: &String| {
         let place = line.split("at=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a place");
