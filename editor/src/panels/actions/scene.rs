@@ -7,8 +7,8 @@ use crate::panels::request::{Effect, FileAction};
 use crate::panels::scene::{NewThing, SceneRequest};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_document::bones::Choice;
 use dragonfly_document::DocumentMessage;
+use dragonfly_document::bones::Choice;
 use std::path::{Component, Path};
 
 /// Commands for models and the ones with the same meaning, and the same keys, while a scene is open.
