@@ -1,12 +1,9 @@
 //! Baking: a key at every frame, with lines between them, instead of the keys and curves of a take.
 
 use crate::data::{Channel, Interpolation, MorphTrack, Take, Track};
-use crate::frames::{FramesError, MOST_POSES};
+use crate::frames::{FramesError, MOST_POSES, frames_over};
 use crate::sample::{Value, sample_channel, sample_morph_weights};
 use std::sync::Arc;
-
-/// Share of a frame by which the last key may be after a frame.
-const OFF_FRAME: f64 = 0.02;
 
 /// Returns a take with a key at every frame of `rate` frames per second, from its first key to the first frame at or after its last one.
 ///
@@ -23,13 +20,12 @@ pub fn baked(take: &Take, rate: f32) -> Result<Take, FramesError> {
     }
     let (start, end) = take.range_of_keys().unwrap_or_default();
     let (start, rate) = (f64::from(start), f64::from(rate));
-    let last = ((f64::from(end) - start) * rate - OFF_FRAME).ceil().max(0.0) as usize;
+    let frames = frames_over(f64::from(end) - start, rate);
     let bones = take.tracks.len().max(1);
-    let frames = last.saturating_add(1);
     if frames.saturating_mul(bones) > MOST_POSES {
         return Err(FramesError::TooMany { frames, bones });
     }
-    let times: Arc<[f32]> = (0..=last).map(|frame| (start + frame as f64 / rate) as f32).collect();
+    let times: Arc<[f32]> = (0..frames).map(|frame| (start + frame as f64 / rate) as f32).collect();
     let tracks = take.tracks.iter().map(|track| Track {
         bone: track.bone,
         translation: baked_channel(&track.translation, &times),

@@ -14,8 +14,18 @@ pub const MOST_POSES: usize = 8 << 20;
 /// The usual frame rates, ascending.
 const RATES: [f32; 10] = [12.0, 15.0, 24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0];
 
-/// Share of a frame by which a key may be off its frame.
-const OFF_FRAME: f64 = 0.02;
+/// Share of a frame by which a key, or the end of a take, may be off its frame.
+pub(crate) const OFF_FRAME: f64 = 0.02;
+
+/// Returns the number of frames from a start to the last one at or just before the end, `length` seconds later.
+pub(crate) fn frames_within(length: f64, rate: f64) -> usize {
+    ((length * rate + OFF_FRAME).floor().max(0.0) as usize).saturating_add(1)
+}
+
+/// Returns the number of frames from a start to the first one at or just after the end, `length` seconds later.
+pub(crate) fn frames_over(length: f64, rate: f64) -> usize {
+    ((length * rate - OFF_FRAME).ceil().max(0.0) as usize).saturating_add(1)
+}
 
 /// Returns the lowest usual frame rate at which every key of `take` is on a frame; 30 where there is none.
 pub fn frame_rate(take: &Take) -> f32 {
@@ -74,7 +84,7 @@ impl TakeFrames {
         }
         let (start, length) = (finite(take.start), f64::from(finite(take.length).max(0.0)));
         let bones = skeleton.len();
-        let frames = ((length * f64::from(rate) + OFF_FRAME).floor() as usize).saturating_add(1);
+        let frames = frames_within(length, f64::from(rate));
         if frames.saturating_mul(bones.max(1)) > MOST_POSES {
             return Err(FramesError::TooMany { frames, bones });
         }

@@ -253,3 +253,43 @@ fn uncompressed_data_is_read_where_a_primitive_has_both() {
     assert_eq!(got.warnings, []);
     assert_eq!(got.model, read(&Fixture::new()).expect("a model").model);
 }
+
+#[test]
+fn uncompressed_data_is_read_also_where_the_extension_beside_it_is_damaged() {
+    let path = format!("/meshes/0/primitives/0/extensions/{EXTENSION}");
+    let plain =
+        read("a.glb", &Fixture::new().glb(), &NoFiles, &ReadOptions::default()).expect("a model").model;
+    for object in [
+        json!([]),
+        json!({}),
+        json!({"bufferView": 99, "attributes": {"POSITION": 0}}),
+        json!({"bufferView": 0, "attributes": 3}),
+        json!({"bufferView": 0, "attributes": {"POSITION": "first"}}),
+    ] {
+        let mut fixture = Fixture::new();
+        fixture.set("/extensionsUsed", json!([EXTENSION])).set("/extensionsRequired", json!([EXTENSION]));
+        fixture.set(&path, object.clone());
+        let got = read("a.glb", &fixture.glb(), &NoFiles, &ReadOptions::default());
+        assert_eq!(got.unwrap_or_else(|error| panic!("{object}: {error}")).model, plain);
+    }
+    // A strip, and a primitive without indices, cannot be compressed, but have data.
+    for (member, value) in [("mode", json!(5)), ("indices", Value::Null)] {
+        let with = |extension: bool| {
+            let mut fixture = Fixture::new();
+            let primitive = fixture.json.pointer_mut("/meshes/0/primitives/0").and_then(Value::as_object_mut);
+            let primitive = primitive.expect("a primitive");
+            match &value {
+                Value::Null => drop(primitive.remove(member)),
+                value => drop(primitive.insert(member.to_owned(), value.clone())),
+            }
+            if extension {
+                fixture.set("/extensionsUsed", json!([EXTENSION]));
+                fixture.set(&path, json!({"bufferView": 0, "attributes": {"POSITION": 0}}));
+            }
+            read("a.glb", &fixture.glb(), &NoFiles, &ReadOptions::default())
+        };
+        let (plain, got) = (with(false), with(true));
+        let got = got.unwrap_or_else(|error| panic!("{member}: {error}"));
+        assert_eq!(got.model, plain.expect("a model").model, "{member}");
+    }
+}

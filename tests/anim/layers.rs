@@ -4,8 +4,8 @@ use crate::support::{about_z, along_x, angle_between, animation_data, bone, take
 use dragonfly_anim::blend::{add_to, mix_poses};
 use dragonfly_anim::data::{AnimationData, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_anim::layers::{
-    LayerChannel, LayerMode, LayerRule, LayerSettings, RotationRule, ScaleRule, TakeLayer, TranslationRule,
-    WeightKey, flatten, flatten_channel, key_for, seen,
+    AddedKeys, LayerChannel, LayerMode, LayerRule, LayerSettings, RotationRule, ScaleRule, TakeLayer,
+    TranslationRule, WeightKey, flatten, flatten_channel, flatten_with, key_for, seen,
 };
 use dragonfly_anim::sample::{rest_pose, sample_channel};
 use dragonfly_kit::random::{Random, seed};
@@ -342,5 +342,19 @@ fn a_flattened_channel_of_many_keys_has_no_more_keys_than_its_sources_and_is_exa
         assert!(worst < 2.5e-4, "seed {number}: off by {worst}");
         let is_slow = step < 0.005 && reach < 0.1;
         assert!(!is_slow || flat.len() <= times.len() + 3, "seed {number}: {} keys", flat.len());
+    }
+}
+
+#[test]
+fn keys_on_frames_of_an_enormous_rate_stay_between_their_neighbors() {
+    let base = about_z(&[(0.0, 0.0), (4_000.0, 1.0), (8_000.0, 0.0)], Interpolation::CubicSpline);
+    let nod = about_z(&[(0.0, 0.0), (5_000.0, 0.9), (8_000.0, 0.0)], Interpolation::Linear);
+    for rate in [1e3, 1e15, 1e18, f32::MAX] {
+        let bones = one_bone();
+        let track = |rotation: &Channel<Quat>| Track { rotation: rotation.clone(), ..Track::default() };
+        let layer = TakeLayer { settings: LayerSettings::default(), take: Arc::new(take(vec![track(&nod)])) };
+        let flat = flatten_with(&take(vec![track(&base)]), &[layer], &bones, AddedKeys::OnFrames(rate));
+        let times = &flat.tracks[0].rotation.times;
+        assert!(times.is_sorted_by(|a, b| a < b) && times.last() == Some(&8_000.0), "{rate}: {times:?}");
     }
 }

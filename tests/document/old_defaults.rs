@@ -7,7 +7,7 @@ use dragonfly_document::adapter::{LayerVersions, ModelAdapter, stored_contacts};
 
 const LEFT: &str = "b_LeftFoot01_017";
 
-/// Returns the fox with a survey in which a foot moves slowly: in meters it slides, in centimeters it stands.
+/// Returns the fox with a survey in which a foot moves slowly: too fast for a contact in meters, slow enough in centimeters.
 fn slow() -> ModelAdapter {
     let mut model = fox_takes();
     for (time, x) in [(0, 0), (3, 4)] {

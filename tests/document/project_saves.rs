@@ -106,7 +106,7 @@ fn a_project_that_is_saved_in_another_folder_plays_the_models_of_that_folder() {
 }
 
 #[test]
-fn a_project_that_is_saved_in_its_own_folder_by_another_path_is_not_told_that_its_models_are_missing() {
+fn a_project_that_is_saved_in_its_own_folder_by_another_path_gets_no_notice_about_its_models() {
     let folder = Folder::new("project-same-folder");
     let mut document = TestDocument::new(&folder.join("autosave"));
     document.open(&project(&folder));

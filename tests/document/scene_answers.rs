@@ -1,4 +1,4 @@
-//! The protocol says everything that is wrong with a scene: also with its lines, its models and the edits that its project keeps.
+//! The protocol returns all errors of a scene: also those of its lines, its models and the edits that its project keeps.
 
 use super::projects::{LINES, MAIN, PROJECT, project};
 use dragonfly_document::protocol::Session;

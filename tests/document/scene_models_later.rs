@@ -1,4 +1,4 @@
-//! What can happen while a model of a scene is edited: nothing of the scene or of the model is lost, and no edit is applied twice.
+//! Whatever happens while a model of a scene is edited, nothing of the scene or of the model is lost, and no edit is applied twice.
 
 use super::projects::{PROJECT, is_read, project};
 use super::scene_models::{enter, takes};

@@ -133,7 +133,7 @@ fn two_parts_of_one_edit_may_change_the_same_text() {
 }
 
 #[test]
-fn texts_that_one_edit_creates_are_told_apart() {
+fn texts_that_one_edit_creates_are_merged_each_by_itself() {
     let create = |name: &str, text: &str| EditScript {
         text: Some(TextRef::Name(name.to_owned())),
         create: true,

@@ -5,6 +5,7 @@ use crate::stdio::StdioSession;
 use dragonfly_document::{Decision, DocumentMessage, View};
 use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::Folder;
+use dragonfly_kit::skip::{TestNeed, skip};
 use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -178,11 +179,12 @@ fn a_project_is_checked_packed_and_unpacked_and_its_schema_is_printed() {
         assert!(schema.contains(&format!("<start><ref name=\"{root}\"/></start>")), "{schema}");
         let path = folder.join("schema.rng");
         fs::write(&path, schema).expect("a file");
-        if kind == "project"
-            && let Ok(done) =
-                Command::new("xmllint").arg("--noout").arg("--relaxng").args([&path, &project]).output()
-        {
-            assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        if kind != "project" {
+            continue;
+        }
+        match Command::new("xmllint").arg("--noout").arg("--relaxng").args([&path, &project]).output() {
+            Ok(done) => assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr)),
+            Err(_) => skip(TestNeed::Evaluators, "there is no xmllint"),
         }
     }
     let [short, long] = [vec!["script", "--schema"], vec!["script", "--schema", "script"]]

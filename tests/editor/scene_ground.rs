@@ -4,9 +4,9 @@ use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::scene_lines::{at, run, send};
 use crate::workbench::Window;
 use dragonfly::control::{InputEvent, Key};
-use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
 use dragonfly_picture::PosedScene;
 use glam::DVec3;
@@ -60,7 +60,7 @@ fn what_is_dropped_to_the_ground_stands_on_it() {
     assert_eq!((new.len(), window.state().steps()), (2, (1, 1)), "{new:?}");
     assert!(new[0].contains("at=\"1 0 0\""), "{new:?}");
     let panels = window.state().state.read();
-    let mut posed = PosedScene::without(panels.scene().expect("a scene"), &[], None).expect("a plan");
+    let mut posed = PosedScene::new(panels.scene().expect("a scene"), &[], None).expect("a plan");
     posed.pose(0.0);
     let toy = posed.plan().thing_called("toy").expect("a prop");
     assert!(posed.box_of(toy).min.y.abs() < 2e-3, "{:?}", posed.box_of(toy));
@@ -71,18 +71,44 @@ fn what_is_dropped_to_the_ground_stands_on_it() {
     assert!(said.contains("can stand") && window.state().steps().1 == 1, "{said}");
 }
 
+/// Drops files while the pointer is over a place of the ground. Returns the places of the roles that are new.
+fn dropped_at(window: &mut Window, place: DVec3, files: &[&str]) -> Vec<DVec3> {
+    let pointer = at(window, place);
+    send(window, InputEvent::MouseMove(pointer));
+    let files = files.iter().map(|file| (*file).into()).collect();
+    let effect = window.state_mut().state.execute(Request::Dropped(files));
+    let change = match effect {
+        Some(Effect::Change(change)) => change,
+        other => panic!("{other:?}"),
+    };
+    window.state_mut().change(change);
+    let place_of = |line: &String| {
+        let place = line.split("at=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a place");
+        let numbers: Vec<f64> = place.split(' ').map(|number| number.parse().expect("a number")).collect();
+        DVec3::from_slice(&numbers)
+    };
+    new_lines(FOXES, &text(window)).iter().map(place_of).collect()
+}
+
 #[test]
 fn a_model_that_is_dropped_stands_under_the_pointer() {
     let mut window = scene(FOXES).window();
     let wanted = DVec3::new(0.5, 0.0, 1.0);
-    let pointer = at(&window, wanted);
-    send(&mut window, InputEvent::MouseMove(pointer));
-    let effect = window.state_mut().state.execute(Request::DropRole("/scenes/Fox.glb".into()));
-    let Some(dragonfly::panels::Effect::Change(change)) = effect else { panic!("{effect:?}") };
-    window.state_mut().change(change);
-    let new = new_lines(FOXES, &text(&window));
-    assert_eq!(new.len(), 1, "{new:?}");
-    let place = new[0].split("at=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a place");
-    let numbers: Vec<f64> = place.split(' ').map(|number| number.parse().expect("a number")).collect();
-    assert!(DVec3::from_slice(&numbers).distance(wanted) < 0.02, "{new:?}");
+    let places = dropped_at(&mut window, wanted, &["/scenes/Fox.glb"]);
+    assert_eq!(places.len(), 1, "{places:?}");
+    assert!(places[0].distance(wanted) < 0.02, "{places:?}");
+}
+
+#[test]
+fn models_that_are_dropped_together_stand_side_by_side_a_meter_apart() {
+    let mut window = scene(FOXES).window();
+    let wanted = DVec3::new(-0.5, 0.0, 1.0);
+    // A file that is elsewhere takes no place.
+    let files = ["/scenes/Fox.glb", "/elsewhere/Fox.glb", "/scenes/Fox.glb", "/scenes/Fox.glb"];
+    let places = dropped_at(&mut window, wanted, &files);
+    assert_eq!((places.len(), window.state().steps()), (3, (1, 1)), "{places:?}");
+    assert!(places[0].distance(wanted) < 0.02, "{places:?}");
+    for pair in places.windows(2) {
+        assert!((pair[1] - pair[0]).distance(DVec3::X) < 1e-9, "{places:?}");
+    }
 }

@@ -5,13 +5,21 @@ use crate::workbench::Window;
 use dragonfly::control::line::LineUse;
 use dragonfly::control::{Button, InputEvent, Key, Modifiers};
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::scene::{LineRequest, SceneRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::stage::StagePath;
-use dragonfly_document::Change;
+use dragonfly_anim::stage::line::DrawnLines;
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::StageScript;
+use dragonfly_document::adapter::{TextFile, TextFiles};
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::Edit;
+use dragonfly_document::{Change, SceneView, View};
+use dragonfly_kit::document::fixture;
 use dragonfly_picture::gizmo::GizmoView;
+use egui_kittest::kittest::Queryable;
 use glam::{DVec3, Vec2};
+use std::sync::Arc;
 
 /// Gives an event to the viewport, and the changes that follow from it to the document.
 pub(crate) fn send(window: &mut Window, event: InputEvent) {
@@ -167,4 +175,153 @@ fn lines_need_a_project_and_the_tool_says_so() {
     assert_eq!(read.tools.controls().line().use_of(), None);
     let said = read.status.last().map(|message| message.text.clone()).unwrap_or_default();
     assert!(said.contains("New project from this scene"), "{said}");
+}
+
+#[test]
+fn the_tool_that_draws_lines_is_put_away_with_its_scene() {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::ToolPath);
+    window.state_mut().state.show(fixture::full());
+    assert_eq!(window.state().state.read().tools.controls().line().use_of(), None);
+}
+
+/// A file of lines: one straight piece of two meters, one that is shown later, one of two curves.
+const LINES: &str = r##"<?xml version="1.0" encoding="UTF-8"?>
+<lines version="1">
+  <line id="long" points="-1 0 -0.5  -0.4 0 -0.5  0.4 0 -0.5  1 0 -0.5" color="#ff8000"/>
+  <line id="late" points="-1 0 0.5  -0.4 0 0.5  0.4 0 0.5  1 0 0.5" from="2"/>
+  <line id="far" points="-1 0 1.5  -0.4 0 1.5  0.4 0 1.5  1 0 1.5"/>
+</lines>
+"##;
+
+const PROJECT: &str = "<project version=\"1\">\n  <lines src=\"a.lines.xml\"/>\n  <script id=\"main\" src=\"scene.xml\"/>\n</project>\n";
+
+/// Opens the scene as one of a project with drawn lines.
+fn project() -> Window {
+    let mut window = scene(FOXES).window();
+    let bench = window.state_mut();
+    let view = bench.state.read().view.cloned().expect("a view");
+    let scene = view.scene.as_deref().expect("a scene");
+    let file = |name: &str, text: &str| TextFile { name: name.into(), text: text.into() };
+    let scene = SceneView {
+        texts: TextFiles::new(vec![
+            file("a.meproj", PROJECT),
+            file("a.lines.xml", LINES),
+            file("scene.xml", FOXES),
+        ]),
+        project: Some(Arc::new(StageProject::read(PROJECT).expect("a project"))),
+        lines: Some(Arc::new(DrawnLines::read(LINES).expect("lines"))),
+        ..scene.clone()
+    };
+    bench.state.show(View { scene: Some(Arc::new(scene)), generation: view.generation + 1, ..view });
+    bench.state.execute(Request::Command(Id::ViewTop));
+    window.run_steps(2);
+    run(&mut window, Id::ToolLine);
+    window
+}
+
+/// Erases from one place of the scene to another in one movement. Returns the ids of the lines that are gone.
+fn erased(window: &mut Window, from: DVec3, to: DVec3) -> Vec<&'static str> {
+    let [from, to] = [from, to].map(|place| at(window, place));
+    let ctrl = |ctrl| InputEvent::Modifiers(Modifiers { ctrl, ..Modifiers::default() });
+    let mut effects = Vec::new();
+    let events = [
+        ctrl(true),
+        InputEvent::MouseMove(from),
+        InputEvent::MouseDown(Button::Left),
+        InputEvent::MouseMove(to),
+        InputEvent::MouseUp(Button::Left),
+        ctrl(false),
+    ];
+    for event in events {
+        window.state_mut().state.input(event, &mut effects);
+    }
+    let Some(Effect::Change(Change::Edit(Edit::EditScript(edit), None))) = effects.pop() else {
+        return Vec::new();
+    };
+    let removed: String = edit.splices.iter().map(|splice| splice.old.as_str()).collect();
+    ["long", "late", "far"].into_iter().filter(|id| removed.contains(&format!("id=\"{id}\""))).collect()
+}
+
+#[test]
+fn the_eraser_removes_what_it_crosses_and_only_what_is_seen() {
+    let mut window = project();
+    let [left, right] = [-0.97, 0.97].map(|x| move |z: f64| DVec3::new(x, 0.0, z));
+    // One fast movement across a line, far from every point of it that a curve is measured at.
+    assert_eq!(erased(&mut window, DVec3::new(0.3, 0.0, -0.2), DVec3::new(0.31, 0.0, -0.9)), ["long"]);
+    assert_eq!(erased(&mut window, left(0.0), right(0.0)), [""; 0], "it touches none");
+    // A line that is shown from two seconds on.
+    assert_eq!(erased(&mut window, left(0.2), right(0.8)), [""; 0], "it is not shown yet");
+    window.state_mut().state.execute(Request::Seek(3.0));
+    window.run_steps(2);
+    assert_eq!(erased(&mut window, left(0.2), right(0.8)), ["late"]);
+    // A line that is hidden in the list, and all of them.
+    let hide = |hide| Request::Scene(SceneRequest::Line(LineRequest::Hide("far".into(), hide)));
+    window.state_mut().state.execute(hide(true));
+    assert_eq!(erased(&mut window, left(1.3), right(1.7)), [""; 0], "it is hidden");
+    window.state_mut().state.execute(hide(false));
+    assert_eq!(erased(&mut window, left(0.2), right(1.7)), ["late", "far"]);
+    window.state_mut().state.settings_mut().look.lines = false;
+    assert_eq!(erased(&mut window, left(0.2), right(1.7)), [""; 0], "no line is shown");
+}
+
+/// Executes a request about a line. Returns its effect, and the newest message.
+fn line_request(window: &mut Window, request: LineRequest) -> (Option<Effect>, String) {
+    let effect = window.state_mut().state.execute(Request::Scene(SceneRequest::Line(request)));
+    let read = window.state().state.read();
+    (effect, read.status.last().map(|message| message.text.clone()).unwrap_or_default())
+}
+
+#[test]
+fn a_line_that_a_path_follows_is_not_deleted_and_names_that_break_the_file_are_refused() {
+    let mut window = project();
+    let set = |name: &str| LineRequest::Set("far".into(), "id", Some(name.to_owned()));
+    let (effect, said) = line_request(&mut window, set("my line"));
+    assert!(effect.is_none() && said.contains("my line"), "{said}");
+    let (effect, said) = line_request(&mut window, set("long"));
+    assert!(effect.is_none() && said.contains("used"), "{said}");
+    let (effect, said) = line_request(&mut window, LineRequest::Delete("far".into()));
+    assert!(matches!(effect, Some(Effect::Change(_))), "nothing follows it: {said}");
+    // A path along one of the lines.
+    let view = window.state().state.read().view.cloned().expect("a view");
+    let followed = FOXES.replace("  </cast>", "    <path id=\"way\" line=\"long\"/>\n  </cast>");
+    let before = view.scene.as_deref().expect("a scene");
+    let mut texts = before.texts.list().to_vec();
+    texts[2].text = followed.as_str().into();
+    let scene = SceneView {
+        script: Some(Arc::new(StageScript::read(followed).expect("a script"))),
+        texts: TextFiles::new(texts),
+        ..before.clone()
+    };
+    window.state_mut().state.show(View { scene: Some(Arc::new(scene)), ..view });
+    let (effect, said) = line_request(&mut window, LineRequest::Delete("long".into()));
+    assert!(effect.is_none() && said.contains("way") && said.contains("long"), "{said}");
+    // Without a name it could not be followed; the path follows it under another name in the same step.
+    let (effect, said) = line_request(&mut window, LineRequest::Set("long".into(), "id", None));
+    assert!(effect.is_none() && said.contains("way"), "{said}");
+    let name = Some("wide".to_owned());
+    let (effect, said) = line_request(&mut window, LineRequest::Set("long".into(), "id", name));
+    let Some(Effect::Change(Change::Edit(Edit::EditScript(edit), None))) = effect else { panic!("{said}") };
+    let also: Vec<&str> = edit.also.iter().flat_map(|own| &own.splices).map(|splice| &*splice.new).collect();
+    assert!(also.len() == 1 && also[0].contains("wide"), "{also:?}");
+}
+
+#[test]
+fn errors_of_the_project_and_of_its_lines_are_listed_with_their_files() {
+    let mut window = project();
+    let view = window.state().state.read().view.cloned().expect("a view");
+    let errors = |text: &str| DrawnLines::read(text).expect_err("an error");
+    let scene = SceneView {
+        line_errors: errors(&LINES.replace("points=\"-1 0 1.5 ", "points=\"x 0 1.5 ")).into(),
+        project_errors: StageProject::read(PROJECT.replace("src=\"a.lines.xml\"", ""))
+            .expect_err("an error")
+            .into(),
+        ..view.scene.as_deref().expect("a scene").clone()
+    };
+    window.state_mut().state.show(View { scene: Some(Arc::new(scene)), ..view });
+    window.run_steps(3);
+    for file in ["a.lines.xml", "a.meproj"] {
+        let found = window.query_all_by_label_contains(&format!("Error at {file}, ")).count();
+        assert!(found > 0, "no error of {file} is listed");
+    }
 }

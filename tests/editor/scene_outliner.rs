@@ -106,3 +106,19 @@ fn a_scene_has_its_panels_and_a_model_has_its_own() {
     assert_eq!(model.query_all_by_label("Scene timeline").count(), 0);
     assert!(model.query_all_by_label("Curves").count() > 0);
 }
+
+#[test]
+fn only_the_rows_in_sight_are_drawn_and_a_name_that_is_typed_is_brought_into_sight() {
+    let marks: String =
+        (0..3_000).map(|mark| format!("    <mark id=\"m{mark}\" at=\"{mark} 0 0\"/>\n")).collect();
+    let mut window = scene(&FOXES.replace("  </cast>", &format!("{marks}  </cast>"))).window();
+    let shown = |window: &Window| window.query_all_by_label_contains(", mark").count();
+    assert!((1..200).contains(&shown(&window)), "{} rows", shown(&window));
+    assert!(window.query_by_label("m2500, mark").is_none());
+    window.state_mut().state.execute(Request::Scene(SceneRequest::Rename(Some("m2500".into()))));
+    window.run_steps(30);
+    assert!(window.query_by_label("m2501, mark").is_some(), "the list was scrolled there");
+    assert!(shown(&window) < 200);
+    type_into(&mut window, "Name of the thing", "goal", Key::Enter);
+    assert!(text(&window).contains("<mark id=\"goal\" at=\"2500 0 0\"/>"));
+}

@@ -109,7 +109,7 @@ impl Workbench {
         }
     }
 
-    fn answer(&mut self, answered: u64, change: Change) {
+    pub(crate) fn answer(&mut self, answered: u64, change: Change) {
         self.changes.push(change.clone());
         let (Some(edited), Some(view)) = (&mut self.edited, self.state.read().view.cloned()) else { return };
         let _there_was_something_to_do = match change {

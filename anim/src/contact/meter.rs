@@ -97,11 +97,9 @@ impl SlideMeter {
 
 /// Returns the position of a bone in scene space; the origin for a bone that does not exist.
 fn joint(take: &Take, skeleton: &Skeleton, bone: BoneIndex, time: f32) -> Vec3 {
-    let parent =
-        |&bone: &BoneIndex| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
     let mut to_root = Mat4::IDENTITY;
     // From the bone up: each parent is multiplied on the left.
-    for index in std::iter::successors(Some(bone), parent) {
+    for index in std::iter::once(bone).chain(skeleton.ancestors(bone)) {
         let Some(data) = skeleton.bones.get(index as usize) else { break };
         let pose = match take.tracks.get(index as usize) {
             Some(track) => sample_track(track, data, time),

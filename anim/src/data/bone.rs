@@ -62,6 +62,13 @@ impl Skeleton {
         (0..self.bones.len() as BoneIndex).filter(move |&index| self.bones[index as usize].parent == bone)
     }
 
+    /// Returns the bones above `bone`, the nearest first; none for a bone that does not exist. A parent that does not come before its child
+    /// is ignored.
+    pub(crate) fn ancestors(&self, bone: BoneIndex) -> impl Iterator<Item = BoneIndex> + '_ {
+        let parent = |bone: BoneIndex| self.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
+        std::iter::successors(parent(bone), move |&bone| parent(bone))
+    }
+
     /// Returns the number of bones.
     pub fn len(&self) -> usize {
         self.bones.len()

@@ -99,7 +99,9 @@ fn halve<R: LayerRule>(
 fn frames_between(from: f32, to: f32, rate: f32) -> [i64; 2] {
     let frame = |time: f32| f64::from(time) * f64::from(rate);
     let near = f64::from(5.0 * JUMP) * f64::from(rate);
-    [(frame(from) + near).floor() as i64 + 1, (frame(to) - near).ceil() as i64 - 1]
+    // Frames beyond all numbers are none.
+    let [first, last] = [(frame(from) + near).floor(), (frame(to) - near).ceil()];
+    [(first as i64).saturating_add(1), (last as i64).saturating_sub(1)]
 }
 
 /// Puts keys on whole frames, `first` to `last`, between two times where a line is off by more than the tolerance.

@@ -1,7 +1,7 @@
 //! Extraction of root motion from a take.
 
 use super::keys::{Refine, slopes, spins, union, with_values};
-use super::parent_space::{ParentSpace, ancestors};
+use super::parent_space::ParentSpace;
 use super::restore::{MotionDirection, apply};
 use super::{MotionError, RootMotion, RootMotionOptions};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Track, Transform};
@@ -60,7 +60,7 @@ pub(super) fn track_of(take: &Take, bone: BoneIndex) -> Track {
 
 /// Returns the key times of all ancestors of `bone`.
 pub(super) fn times_above(take: &Take, skeleton: &Skeleton, bone: BoneIndex) -> Vec<f32> {
-    let tracks = ancestors(skeleton, bone).filter_map(|ancestor| take.tracks.get(ancestor));
+    let tracks = skeleton.ancestors(bone).filter_map(|above| take.tracks.get(above as usize));
     let lists =
         tracks.flat_map(|track| [&track.translation.times, &track.rotation.times, &track.scale.times]);
     union(lists.map(|times| &times[..]))

@@ -23,7 +23,7 @@ impl ParentSpace {
         time: f32,
     ) -> Result<Self, MotionError> {
         let mut to_root = DMat4::IDENTITY;
-        for ancestor in ancestors(skeleton, bone) {
+        for ancestor in skeleton.ancestors(bone).map(|above| above as usize) {
             let (bone, track) = (&skeleton.bones[ancestor], take.tracks.get(ancestor));
             let pose = track.map_or_else(|| rest_pose(bone), |track| sample_track(track, bone, time));
             to_root = to_parent(bone, pose).as_dmat4() * to_root;
@@ -66,12 +66,6 @@ impl ParentSpace {
     pub(super) fn rotation_to_root(&self, rotation: DQuat) -> DQuat {
         self.rotation * rotation
     }
-}
-
-/// Iterates over the ancestors of `bone`, nearest first; a parent that does not come before its child is ignored.
-pub(super) fn ancestors(skeleton: &Skeleton, bone: BoneIndex) -> impl Iterator<Item = usize> + '_ {
-    let parent = |bone: u32| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
-    std::iter::successors(parent(bone), move |&bone| parent(bone)).map(|bone| bone as usize)
 }
 
 /// Returns the rotation R of a matrix P. For a mirrored matrix it is the rotation of `-P`: `P⁻¹ Y P` and `R⁻¹ Y R` are

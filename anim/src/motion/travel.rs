@@ -17,7 +17,6 @@
 
 use super::extract::{extract, times_above, track_of, with_track};
 use super::keys::{Refine, union};
-use super::parent_space::ancestors;
 use super::restore::{MotionDirection, apply, keyed};
 use super::{MotionError, RootMotion, RootMotionOptions};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
@@ -96,7 +95,7 @@ pub fn move_travel(
             return Err(MotionError::NoSuchBone { bone });
         }
     }
-    let is_above = |upper: BoneIndex, lower| ancestors(skeleton, lower).any(|bone| bone == upper as usize);
+    let is_above = |upper: BoneIndex, lower| skeleton.ancestors(lower).any(|bone| bone == upper);
     let motion = || measured(take, skeleton, from, options);
     if is_above(to, from) {
         let motion = motion()?;
@@ -109,10 +108,11 @@ pub fn move_travel(
         let motion = motion()?;
         let still = carried(take, take, skeleton, &motion, from, MotionDirection::Extract)?;
         let mut moved = still.clone();
-        let turns = |bone: usize| take.tracks.get(bone).is_some_and(|track| !track.rotation.is_empty());
+        let turns =
+            |bone: BoneIndex| take.tracks.get(bone as usize).is_some_and(|track| !track.rotation.is_empty());
         for bone in kept_bones(skeleton, from, to) {
             let mut source = still.clone();
-            if ancestors(skeleton, bone).any(turns) {
+            if skeleton.ancestors(bone).any(turns) {
                 // Between keys, a bone below one that turns moves on a curve.
                 let frames = frames(take, options.rate).ok_or(MotionError::Rate)?;
                 let (mut track, rest) = (track_of(&still, bone), rest_pose(&skeleton.bones[bone as usize]));
@@ -140,7 +140,7 @@ pub fn travel_bones(skeleton: &Skeleton, from: BoneIndex, to: BoneIndex) -> Vec<
 /// Returns `lower`, and the children of the bones from `upper` to the parent of `lower` that are not between the two.
 fn kept_bones(skeleton: &Skeleton, upper: BoneIndex, lower: BoneIndex) -> Vec<BoneIndex> {
     let mut line: Vec<BoneIndex> = Vec::new();
-    for bone in ancestors(skeleton, lower).map(|bone| bone as BoneIndex) {
+    for bone in skeleton.ancestors(lower) {
         line.push(bone);
         if bone == upper {
             break;
@@ -165,8 +165,9 @@ fn measured(
     let unstepped_take = with_track(take, crate::data::Track { translation, rotation, ..track });
     let (mut motion, _) = extract(&unstepped_take, skeleton, bone, options.motion)?;
     let smooth = options.smooth > 0.0;
-    let turns = |bone: usize| take.tracks.get(bone).is_some_and(|track| !track.rotation.is_empty());
-    let turned = !motion.rotation.is_empty() || ancestors(skeleton, bone).any(turns);
+    let turns =
+        |bone: BoneIndex| take.tracks.get(bone as usize).is_some_and(|track| !track.rotation.is_empty());
+    let turned = !motion.rotation.is_empty() || skeleton.ancestors(bone).any(turns);
     if !smooth && !turned {
         return Ok(motion);
     }
@@ -300,7 +301,7 @@ pub fn guess_hips(skeleton: &Skeleton) -> Option<BoneIndex> {
 /// Returns the bone that is most likely the root above `hips`: an ancestor called root, or else the topmost one. `None` where no
 /// bone is above.
 pub fn guess_root(skeleton: &Skeleton, hips: BoneIndex) -> Option<BoneIndex> {
-    let above: Vec<usize> = ancestors(skeleton, hips).collect();
+    let above: Vec<usize> = skeleton.ancestors(hips).map(|bone| bone as usize).collect();
     let is_root = |bone: &&usize| normalized_name(&skeleton.bones[**bone].name).starts_with("root");
     above.iter().find(is_root).or(above.last()).map(|&bone| bone as BoneIndex)
 }

@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Length in seconds of a take whose model is missing.
-pub const UNKNOWN_TAKE: f64 = 1.0;
+pub(in crate::stage) const UNKNOWN_TAKE: f64 = 1.0;
 
 /// Speed in meters per second of a walk at the stride of a take whose model is missing: a calm walk.
-pub const UNKNOWN_SPEED: f64 = 1.4;
+pub(in crate::stage) const UNKNOWN_SPEED: f64 = 1.4;
 
 /// The models, lines and sounds that scripts may name, by the text with which scripts name them.
 #[derive(Clone, Debug, Default)]
@@ -43,14 +43,14 @@ impl StageAssets {
     }
 
     /// Allows scripts to name models that are not here: the things of these models are placed and moved without a pose, their takes last
-    /// [`UNKNOWN_TAKE`], they walk with [`UNKNOWN_SPEED`], and their bones are where the things are. For scenes whose models are
+    /// a second, they walk calmly, and their bones are where the things are. For scenes whose models are
     /// still being read, or are lost.
     pub fn allow_missing_models(&mut self) {
         self.allows_missing = true;
     }
 
     /// Returns whether scripts may name other models.
-    pub fn allows_missing_models(&self) -> bool {
+    pub(in crate::stage) fn allows_missing_models(&self) -> bool {
         self.allows_missing
     }
 

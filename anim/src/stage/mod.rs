@@ -119,7 +119,7 @@ pub mod time;
 mod time_text;
 pub mod writing;
 
-pub use assets::{StageAssets, UNKNOWN_SPEED, UNKNOWN_TAKE};
+pub use assets::StageAssets;
 pub use ease::StageEase;
 pub use live::LiveStage;
 pub use model::{FootContact, StageFoot, StageModel, StageTake};

@@ -1,13 +1,19 @@
 //! Paths by length: position and direction after a distance in meters.
 //!
 //! A smooth path is a Catmull-Rom spline through its points: between two of them a cubic whose slope at each is half the difference of
-//! its neighbors. Its length is summed over 64 straight pieces of each part;
+//! its neighbors. Its length is summed over 64 straight pieces of each part, fewer where there are very many parts;
 //! within a piece the speed of the parameter changes evenly.
 
 use glam::DVec3;
 
 /// Number of pieces of a curved part.
 const PIECES: usize = 64;
+
+/// Smallest number of pieces of a curved part, for a path of very many points, which are close together.
+const FEWEST_PIECES: usize = 4;
+
+/// Number of pieces of a path above which its parts have fewer of them.
+const MOST_PIECES: usize = 1 << 18;
 
 /// A path through the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +104,7 @@ impl StagePath {
     }
 
     fn pieces(&self) -> usize {
-        if self.is_smooth { PIECES } else { 1 }
+        if self.is_smooth { (MOST_PIECES / self.points.len()).clamp(FEWEST_PIECES, PIECES) } else { 1 }
     }
 
     fn share(&self, piece: usize) -> f64 {

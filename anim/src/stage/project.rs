@@ -28,13 +28,15 @@
 
 use super::script::{ErrorList, ScriptElement, ScriptError, ScriptTree, read_tree, suggestion};
 use super::table::{ElementGroup, PROJECTS};
-use std::collections::HashMap;
+use super::time::StageRate;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// A project whose names are resolved. Never changes.
 #[derive(Clone, Debug)]
 pub struct StageProject {
-    tree: ScriptTree,
+    /// Shared with every script that is read with it.
+    tree: Arc<ScriptTree>,
 }
 
 /// Attributes that name an element of the project: element, attribute, and the name of the element that is meant.
@@ -51,7 +53,7 @@ impl StageProject {
     /// Everything that is wrong, in the order of the text, as [`crate::stage::script::StageScript::read`] reports it.
     pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
         let text = text.into();
-        let project = Self { tree: read_tree(&text, &PROJECTS)? };
+        let project = Self { tree: Arc::new(read_tree(&text, &PROJECTS)?) };
         let lines = project.tree.lines().clone();
         let mut errors = ErrorList::new(&lines);
         project.check_names(&mut errors);
@@ -62,6 +64,11 @@ impl StageProject {
     /// Returns the text and its elements; the first one is the project.
     pub fn tree(&self) -> &ScriptTree {
         &self.tree
+    }
+
+    /// Returns the frames per second of what does not say so itself.
+    pub fn rate(&self) -> StageRate {
+        self.tree.elements()[0].value("fps").and_then(StageRate::parse).unwrap_or_default()
     }
 
     /// Returns the elements called `name` outside of the cast, in the order of the text.
@@ -109,14 +116,20 @@ impl StageProject {
 
     /// Returns every file that it names, each once, in the order of the text. Files that are written, such as movies, are left out.
     pub fn files(&self) -> Vec<&str> {
-        let mut files = Vec::new();
+        let (mut files, mut known) = (Vec::new(), HashSet::new());
+        let mut sources: HashMap<&str, &str> = HashMap::new();
+        for model in self.elements_called("model") {
+            let Some((id, source)) = model.value("id").zip(model.value("src")) else { continue };
+            sources.entry(id).or_insert(source);
+        }
         for element in self.tree.elements() {
             for name in ["src", "model", "sky"] {
                 let written = element.attribute(name).map(|attribute| &*attribute.value);
-                let file = written.map(|file| if name == "model" { self.source_of(file) } else { file });
-                if let Some(file) = file.filter(|file| !files.contains(file)) {
-                    files.push(file);
-                }
+                let file = written.map(|file| match name {
+                    "model" => sources.get(file).copied().unwrap_or(file),
+                    _ => file,
+                });
+                files.extend(file.filter(|file| known.insert(*file)));
             }
         }
         files
@@ -148,10 +161,20 @@ impl StageProject {
                 errors.add(element.value_range("id"), message, "an id names one part of a project");
             }
         }
+        let named: HashSet<(&str, &str)> = self
+            .tree
+            .elements()
+            .iter()
+            .filter_map(|element| Some((element.row.name, element.value("id")?)))
+            .collect();
         for (name, attribute, kind) in NAMED {
             for element in self.elements_called(name) {
                 let Some(id) = element.value(attribute) else { continue };
-                if self.element_with_id(kind, id).is_none() {
+                if !named.contains(&(kind, id)) {
+                    // A suggestion costs more than what is not reported any more is worth.
+                    if errors.is_full() {
+                        return;
+                    }
                     let known = self.elements_called(kind).filter_map(|element| element.value("id"));
                     let help = suggestion(id, &format!("{kind}s"), known);
                     errors.add(element.value_range(attribute), format!("there is no {kind} \"{id}\""), help);

@@ -119,13 +119,17 @@ impl Decimal {
         }
         let (part, rest) = part.split_at_checked(Self::MOST_SCALE as usize).unwrap_or((part, ""));
         let is_rounded_up = rest.bytes().next().is_some_and(|digit| digit >= b'5');
-        let part = if rest.is_empty() { part.trim_end_matches('0') } else { part };
         let whole = whole.trim_start_matches('0');
         if whole.len() > 9 {
             return None;
         }
-        let digits = format!("0{whole}{part}").parse::<i64>().ok()? + i64::from(is_rounded_up);
-        Some(Self { digits: sign * digits, scale: part.len() as u32 })
+        let mut digits = format!("0{whole}{part}").parse::<i64>().ok()? + i64::from(is_rounded_up);
+        let mut scale = part.len() as u32;
+        // One number has one form: what is equal is the same.
+        while scale > 0 && digits % 10 == 0 {
+            (digits, scale) = (digits / 10, scale - 1);
+        }
+        Some(Self { digits: sign * digits, scale })
     }
 
     /// Returns whether the number is 0.
@@ -187,6 +191,23 @@ impl StageRate {
     pub fn frames(self, count: Decimal) -> StageTime {
         let ticks = i128::from(count.digits) * i128::from(self.seconds) * i128::from(TICKS_PER_SECOND);
         StageTime::divided(ticks, i128::from(self.frames) * Decimal::power(count.scale))
+    }
+
+    /// Returns the frame nearest to `time`; half-way between two frames the one that is farther from zero.
+    pub fn nearest_frame(self, time: StageTime) -> i64 {
+        let (frames, second) = (i128::from(self.frames), i128::from(TICKS_PER_SECOND));
+        let by = i128::from(self.seconds) * second;
+        let twice = 2 * i128::from(time.0) * frames;
+        // Rounded without a fraction; the result is below 1,000 frames for each of the seconds of a time.
+        ((twice + by * twice.signum()) / (2 * by)) as i64
+    }
+
+    /// Returns the time that a clock of single precision means by `seconds`: within its precision near a frame that frame, exactly.
+    pub fn time_of(self, seconds: f64) -> StageTime {
+        let time = StageTime::from_seconds(seconds);
+        let frame = self.frame(self.nearest_frame(time));
+        let precision = f64::from(f32::EPSILON) * seconds.abs().max(1.0);
+        if (frame.seconds() - seconds).abs() <= precision { frame } else { time }
     }
 
     /// Returns the frames per second, rounded to the nearest `f64`.

@@ -56,9 +56,14 @@ pub(super) fn moment_text(moment: &MomentText, rate: StageRate, like: &str) -> S
 
 /// Returns a number with at most three decimals, without zeros at its end.
 pub(super) fn number_text(number: f64) -> String {
-    let rounded = (number * 1000.0).round() / 1000.0;
-    let text = format!("{:.3}", if rounded == 0.0 { 0.0 } else { rounded });
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    decimal_text((number * 1000.0).round() / 1000.0, 3)
+}
+
+/// Returns a number with at most `decimals` decimals, without zeros at its end.
+pub(super) fn decimal_text(number: f64, decimals: usize) -> String {
+    let text = format!("{number:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 /// Returns a text if it is read as this time.
@@ -88,7 +93,7 @@ fn milliseconds(time: StageTime, rate: StageRate, like: &str) -> Option<String> 
 
 fn frames(time: StageTime, rate: StageRate, like: &str) -> Option<String> {
     like.strip_suffix('f')?;
-    exact(format!("{}f", (time.seconds() * rate.per_second()).round()), time, rate)
+    exact(format!("{}f", rate.nearest_frame(time)), time, rate)
 }
 
 fn minutes(time: StageTime, rate: StageRate, like: &str) -> Option<String> {

@@ -221,7 +221,7 @@ impl Document {
         give_edits(scene, &edited, now)
     }
 
-    /// Decides about edits that a project keeps for another file of a model, and goes on to edit the model.
+    /// Carries out the user's decision about edits that a project keeps for another file of a model, and then opens the model to edit it.
     pub(super) fn decide_outdated(
         &mut self,
         outdated: &OutdatedEdits,

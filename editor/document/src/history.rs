@@ -287,7 +287,7 @@ impl Edited {
     pub fn end_save(&mut self, succeeded: bool) {
         let saving = self.saving.take();
         if succeeded {
-            // What was kept is a change of another file than the one that was written.
+            // The kept steps belong to another file than the one that was written.
             (self.saved, self.kept) = (saving, None);
             self.shared[0] = self.shared[1];
         }

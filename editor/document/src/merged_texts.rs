@@ -57,7 +57,7 @@ impl MergedTexts {
             Ok(mapped) => {
                 merge.follow(&splices);
                 let text = (*other > 0).then_some(TextRef::Index(*other));
-                // What is replaced is what the edit says: if the new text differs there, it is refused.
+                // The edit keeps its own old text: if the new text differs there, the edit is refused.
                 let moved = |(old, new): (&TextSplice, &TextSplice)| ScriptSplice {
                     at: new.range.start,
                     old: file.text[old.range.clone()].to_owned(),

@@ -17,7 +17,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What the user can do where the edits of a model were made for another file.
+/// The help for a model whose edits were made for another file.
 const OTHER_FILE: &str = "open the model to choose whether they are applied to it or removed";
 
 /// The scene of a project without a script.

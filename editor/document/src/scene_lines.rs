@@ -5,12 +5,14 @@ use dragonfly_anim::stage::StageAssets;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptError;
+use dragonfly_anim::stage::time::StageRate;
 use std::sync::Arc;
 
 /// The lines of a project, read again when their text changes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SceneLines {
-    text: Option<Arc<str>>,
+    /// The text, and the frame rate with which it was read.
+    text: Option<(Arc<str>, StageRate)>,
     /// The lines of the last text without errors.
     pub(super) lines: Option<Arc<DrawnLines>>,
     /// The errors of the newest text, in its order.
@@ -34,11 +36,12 @@ impl SceneLines {
             }
             return;
         };
-        if self.text.as_ref() == Some(&file.text) {
+        let read = (Arc::clone(&file.text), project.map_or_else(StageRate::default, StageProject::rate));
+        if self.text.as_ref() == Some(&read) {
             return;
         }
-        self.text = Some(Arc::clone(&file.text));
-        match DrawnLines::read(Arc::clone(&file.text)) {
+        self.text = Some(read);
+        match DrawnLines::read_of(Arc::clone(&file.text), project) {
             Ok(lines) => {
                 assets.clear_lines();
                 for line in lines.list() {

@@ -51,10 +51,12 @@ pub(super) struct PaletteLayout {
     pub(super) weights: Vec<(usize, usize)>,
     /// Number of morph weights, at least one.
     pub(super) weight_count: usize,
+    /// Largest number of items.
+    items: usize,
 }
 
 impl PaletteLayout {
-    fn of(model: &ModelData) -> Self {
+    pub(super) fn of(model: &ModelData) -> Self {
         let mut skins = Vec::with_capacity(model.skins.len());
         let mut rigid = 0;
         for skin in &model.skins {
@@ -62,15 +64,23 @@ impl PaletteLayout {
             rigid += skin.bones.len();
         }
         let mut weights = Vec::with_capacity(model.instances.len());
-        let mut weight_count = 0;
+        let (mut weight_count, mut items) = (0, 0);
         for instance in &model.instances {
-            let primitives = primitives(model, instance.mesh).iter();
-            let targets = primitives.map(|primitive| primitive.morph_targets.len()).max().unwrap_or(0);
+            let primitives = primitives(model, instance.mesh);
+            items += primitives.len();
+            let targets = primitives.iter().map(|primitive| primitive.morph_targets.len()).max().unwrap_or(0);
             weights.push((weight_count, targets));
             weight_count += targets;
         }
         let matrices = (rigid + model.instances.len()).max(1);
-        Self { skins, rigid, matrices, weights, weight_count: weight_count.max(1) }
+        Self { skins, rigid, matrices, weights, weight_count: weight_count.max(1), items }
+    }
+
+    /// Returns the bytes of matrices, weights and items of one copy.
+    pub(super) fn bytes(&self) -> usize {
+        self.matrices * size_of::<Affine>()
+            + self.weight_count * size_of::<f32>()
+            + self.items * size_of::<DrawItem>()
     }
 }
 
@@ -97,6 +107,11 @@ impl DrawSet {
     /// Allocates memory for `copies` of `loaded`; all matrices are the identity.
     pub(super) fn new(loaded: Arc<LoadedModel>, copies: usize) -> Self {
         let layout = PaletteLayout::of(&loaded.model);
+        Self::with_layout(loaded, layout, copies)
+    }
+
+    /// Does the same as [`Self::new`] with the layout of the model.
+    pub(super) fn with_layout(loaded: Arc<LoadedModel>, layout: PaletteLayout, copies: usize) -> Self {
         let one = draw_items(&loaded.model, &layout);
         let part_boxes = boxes_of_parts(&loaded.model, &one, layout.matrices);
         let mut items = Vec::with_capacity(one.len() * copies);

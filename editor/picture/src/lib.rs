@@ -59,7 +59,7 @@ mod x11;
 pub use appearance::{AnyAppearance, Appearance, Appearances};
 pub use appearance_sender::AppearanceSender;
 pub use between::between;
-pub use cast::{PickedThing, PosedScene, ThroughCamera, viewport_camera};
+pub use cast::{PickedThing, PosedScene, ThroughCamera, placeholder_box, viewport_camera};
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,

@@ -80,7 +80,7 @@ impl Scene {
     pub fn show(&mut self, view: &View) {
         let before = self.cast.take();
         let hidden = &self.look.hidden_things;
-        self.cast = view.scene.as_deref().and_then(|scene| PosedScene::without(scene, hidden, before));
+        self.cast = view.scene.as_deref().and_then(|scene| PosedScene::new(scene, hidden, before));
         match &mut self.model {
             Some(model) if Arc::ptr_eq(model.loaded(), &view.loaded) => model.show_takes(view, &self.still),
             _ => {

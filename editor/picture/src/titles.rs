@@ -1,7 +1,7 @@
 //! The titles of a scene, drawn over an image that is finished.
 
 use super::cast::PosedScene;
-use egui::epaint::text::{Fonts, TextOptions};
+use egui::epaint::text::{Fonts, TextOptions, ViewportKey};
 use egui::{Color32, ColorImage, FontDefinitions, FontId, Galley};
 use image::{Rgba, RgbaImage};
 
@@ -9,6 +9,10 @@ use image::{Rgba, RgbaImage};
 const LINE: f32 = 0.07;
 /// Distance of the shadow of a text as a part of the height of its lines.
 const SHADOW: f32 = 0.05;
+
+/// Smallest and largest side of the image in which the shapes of letters are kept, pixels.
+const LEAST_SIDE: u32 = 2048;
+const MOST_SIDE: u32 = 16384;
 
 /// Draws titles with the font of the program's user interface library.
 pub(super) struct TitleDrawer {
@@ -28,6 +32,8 @@ impl TitleDrawer {
         let size = (LINE * height).max(6.0);
         for shown in &cast.state().titles {
             let Some(title) = cast.plan().titles().get(shown.title) else { continue };
+            // If earlier letters have filled their image, it begins again.
+            self.fonts.begin_pass(options(picture), ViewportKey::default());
             let mut view = self.fonts.with_pixels_per_point(1.0);
             let galley =
                 view.layout_no_wrap(title.text.to_string(), FontId::proportional(size), Color32::WHITE);
@@ -39,6 +45,12 @@ impl TitleDrawer {
             draw_text(picture, &galley, &atlas, corner, ([255; 3], shown.weight));
         }
     }
+}
+
+/// Returns how letters are kept for an image: as large as they are drawn, each at whole pixels.
+fn options(picture: &RgbaImage) -> TextOptions {
+    let side = picture.width().max(picture.height()).clamp(LEAST_SIDE, MOST_SIDE) as usize;
+    TextOptions { max_texture_side: side, subpixel_binning: false, ..TextOptions::default() }
 }
 
 /// Draws a text in a color with this opacity.

@@ -286,7 +286,7 @@ impl Graphics {
             GraphicsMessage::Resized(size) => stage.resize(size),
             GraphicsMessage::Pick { position, ticket } => {
                 stage.scene.prepare(thread.now());
-                let thing = stage.scene.pick_things(position).into_iter().next();
+                let thing = stage.scene.pick_thing(position);
                 let bone = pick(&stage.scene, position);
                 self.reply(GraphicsReply::Picked { bone, thing, ticket });
             }

@@ -60,10 +60,13 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                     Purpose::Compare => "Compare with a take of another model".to_owned(),
                     _ => "Open a model or a scene".to_owned(),
                 };
-                let mut dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());
-                if matches!(purpose, Purpose::Open) {
-                    dialog = dialog.add_filter("Scenes", &["xml", "meproj"]);
+                let mut extensions = formats().extensions();
+                let opens = matches!(purpose, Purpose::Open);
+                if opens {
+                    extensions.extend(["xml", "meproj"]);
                 }
+                let name = if opens { "Models and scenes" } else { "Models" };
+                let dialog = dialog.set_title(title).add_filter(name, &extensions);
                 pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
             }
             Purpose::Choose(choice) => {

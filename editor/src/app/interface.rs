@@ -461,17 +461,8 @@ impl Interface {
 
         let before = Redrawn::of(&self.state);
         self.state.end_frame();
-        let files = dropped.len();
-        // Several files at once are takes for the model that is open; the built-in one is no work of the user.
-        let own = self.state.read().view.is_some_and(|view| view.file.path.is_some());
-        let is_model = |path: &std::path::PathBuf| !dragonfly_document::is_scene(path);
-        if self.state.read().scene().is_some() && dropped.iter().all(is_model) && !dropped.is_empty() {
-            requests.extend(dropped.into_iter().map(Request::DropRole));
-        } else if files > 1 && own {
-            requests.push(Request::ImportTakes(dropped));
-        } else if let Some(path) = dropped.into_iter().next() {
-            self.state.pass_over(files - 1);
-            requests.push(Request::Open(dragonfly_document::Source::File(path)));
+        if !dropped.is_empty() {
+            requests.push(Request::Dropped(dropped));
         }
         for request in requests {
             let effect = self.state.execute(request);

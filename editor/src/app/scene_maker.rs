@@ -20,8 +20,9 @@ const HEIGHT: f32 = 1.7;
 
 /// Starts to write a scene of two roles with a model.
 pub(super) fn make(model: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
-    let work = move |_: &JobContext<SceneAnswer>| written(&model);
-    Job::start(to, "new scene", work, |reason: &str| Err(reason.to_owned()))?.detach();
+    let failed = |reason: &str| -> SceneAnswer { Err(format!("No scene was made: {reason}")) };
+    let work = move |_: &JobContext<SceneAnswer>| written(&model).or_else(|reason| failed(&reason));
+    Job::start(to, "new scene", work, failed)?.detach();
     Ok(())
 }
 
@@ -53,8 +54,9 @@ fn demo_model(folder: &Path) -> Result<PathBuf, String> {
 
 /// Starts to write a project with a script.
 pub(super) fn make_project(script: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
-    let work = move |_: &JobContext<SceneAnswer>| written_project(&script);
-    Job::start(to, "new project", work, |reason: &str| Err(reason.to_owned()))?.detach();
+    let failed = |reason: &str| -> SceneAnswer { Err(format!("No project was made: {reason}")) };
+    let work = move |_: &JobContext<SceneAnswer>| written_project(&script).or_else(|reason| failed(&reason));
+    Job::start(to, "new project", work, failed)?.detach();
     Ok(())
 }
 
@@ -67,15 +69,25 @@ fn written_project(script: &Path) -> SceneAnswer {
     let stem = script.file_stem().and_then(|stem| stem.to_str()).unwrap_or(name);
     let (project, lines) = (script.with_file_name(format!("{stem}.meproj")), format!("{stem}.lines.xml"));
     let [project_text, lines_text] = project_texts(name, &lines);
-    write_new(&script.with_file_name(&lines), lines_text.as_bytes())?;
-    write_new(&project, project_text.as_bytes())?;
+    let lines = script.with_file_name(lines);
+    write_new(&lines, lines_text.as_bytes())?;
+    if let Err(reason) = write_new(&project, project_text.as_bytes()) {
+        // A file of lines alone would stop every later try. If it cannot be removed, the next try reports it.
+        let _removed = std::fs::remove_file(&lines);
+        return Err(reason);
+    }
     Ok(project)
 }
 
+/// Writes a file that is not there yet; none is left over where it cannot be written.
 fn write_new(place: &Path, bytes: &[u8]) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("Cannot write {}: {error}", place.display());
     let file = std::fs::OpenOptions::new().write(true).create_new(true).open(place);
-    file.and_then(|mut file| file.write_all(bytes))
-        .map_err(|error| format!("Cannot write {}: {error}", place.display()))
+    let mut file = file.map_err(failed)?;
+    file.write_all(bytes).map_err(|error| {
+        let _removed = std::fs::remove_file(place);
+        failed(error)
+    })
 }
 
 fn written(path: &Path) -> SceneAnswer {
@@ -116,9 +128,7 @@ impl Receiver for SceneMakerReceiver {
                 let action = FileAction::Leave(Then::Open(Source::File(path)));
                 interface.effects.push(Effect::File(action));
             }
-            Err(reason) => {
-                interface.state.say(MessageSeverity::Error, format!("No scene was made: {reason}"))
-            }
+            Err(reason) => interface.state.say(MessageSeverity::Error, reason),
         }
         interface.redraw();
     }

@@ -47,6 +47,16 @@ impl CameraState {
         self.seen.as_ref().unwrap_or(&self.camera)
     }
 
+    /// Returns the free camera, whatever the viewport looks through.
+    pub(super) fn free(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Sets the free camera, whatever the viewport looks through.
+    pub(super) fn set_free(&mut self, camera: Camera) {
+        self.camera = camera;
+    }
+
     /// Returns the free camera for a command that moves it. It continues where the camera of a scene was.
     pub(super) fn camera_mut(&mut self) -> &mut Camera {
         self.leave();
@@ -145,8 +155,14 @@ impl CameraState {
         (self.viewport.width() / self.viewport.height().max(1.0)).max(0.01)
     }
 
-    /// Moves the camera so that a box fills the viewport.
+    /// Moves the camera so that a box fills the viewport. A camera of a scene is left.
     pub(super) fn frame(&mut self, min: Vec3, max: Vec3) {
+        let aspect = self.aspect();
+        self.camera_mut().frame_box(min, max, aspect);
+    }
+
+    /// Moves the free camera so that a box fills the viewport, whatever the viewport looks through.
+    pub(super) fn frame_free(&mut self, min: Vec3, max: Vec3) {
         let aspect = self.aspect();
         self.camera.frame_box(min, max, aspect);
     }

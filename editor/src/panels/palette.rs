@@ -113,7 +113,7 @@ fn search<'a>(query: &str, context: &'a PanelContext<'a>) -> Vec<PaletteEntry<'a
         commands.filter(|entry| has(&entry.about())).chain(takes).chain(gestures).collect();
     // Titles that begin with the first word come first, then those with a match, then commands that are not available now, with the
     // reason, and gestures last.
-    let first = words.first().map_or("", |word| word);
+    let first = words.first().map_or("", String::as_str);
     let begins = |title: &str| title.to_lowercase().starts_with(first);
     found.sort_by_key(|entry| {
         (entry.is_gesture(), !has(entry.title()), !entry.is_able(context), !begins(entry.title()))

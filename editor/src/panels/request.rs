@@ -130,10 +130,10 @@ pub enum Request {
     Sets(SetAction),
     /// A request about the scene that is open.
     Scene(SceneRequest),
-    /// Adds this model to the scene as a role.
-    AddRole(PathBuf),
-    /// Adds this model to the scene as a role under the pointer.
-    DropRole(PathBuf),
+    /// Files were dropped onto the window.
+    Dropped(Vec<PathBuf>),
+    /// Adds these models to the scene as roles, in one step.
+    AddRoles(Vec<PathBuf>),
     /// Adds this model to the scene as a prop.
     AddProp(PathBuf),
     /// Makes a scene of two roles with this model, next to its file, and opens it.

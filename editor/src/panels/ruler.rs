@@ -38,11 +38,11 @@ impl Ruler {
     }
 
     /// Returns the lines of the ruler, at whole frames or whole seconds, at least `LINE` points apart.
-    pub fn ticks(&self, frame_rate: u32) -> Vec<Tick> {
+    pub fn ticks(&self, frame_rate: impl Into<f64>) -> Vec<Tick> {
         if self.length <= 0.0 || self.width <= 0.0 || !self.length.is_finite() {
             return vec![Tick { time: self.start, major: true }];
         }
-        let (minor, major) = self.steps(frame_rate);
+        let (minor, major) = self.steps(frame_rate.into());
         let first = (f64::from(self.start) / minor).ceil() as i64;
         let last = ((f64::from(self.start) + f64::from(self.length)) / minor + 1e-6).floor() as i64;
         (first..=last)
@@ -55,23 +55,25 @@ impl Ruler {
     }
 
     /// Returns how many decimals the labels of [`Self::ticks`] need.
-    pub fn decimals(&self, frame_rate: u32) -> usize {
+    pub fn decimals(&self, frame_rate: impl Into<f64>) -> usize {
         let whole = |step: f64| (step - step.round()).abs() < 1e-6;
-        let major = if self.length > 0.0 { self.steps(frame_rate).1 } else { 0.01 };
+        let major = if self.length > 0.0 { self.steps(frame_rate.into()).1 } else { 0.01 };
         [1.0, 10.0, 100.0].into_iter().position(|factor| whole(major * factor)).unwrap_or(3)
     }
 
-    /// Returns the seconds between lines, and between lines with labels: round numbers that are whole frames.
-    fn steps(&self, frame_rate: u32) -> (f64, f64) {
-        let rate = f64::from(frame_rate.max(1));
+    /// Returns the seconds between lines, and between lines with labels: round numbers that are whole frames. At 29.97 frames a second, 30 frames
+    /// count as a second.
+    fn steps(&self, frame_rate: f64) -> (f64, f64) {
+        let rate = frame_rate.max(1.0);
+        let whole_rate = rate.round();
         let points_a_frame = f64::from(self.width / self.length) / rate;
-        let frames = |seconds: f64| (seconds * rate).round();
-        let whole = |seconds: &f64| (seconds * rate - frames(*seconds)).abs() < 1e-6;
+        let frames = |seconds: f64| (seconds * whole_rate).round();
+        let whole = |seconds: &f64| (seconds * whole_rate - frames(*seconds)).abs() < 1e-6;
         let pleasant =
             [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0];
         let seconds = pleasant.into_iter().filter(whole).map(frames);
         // The distance for a range so long that labels at every hour would overlap: several hours.
-        let hours = (LABEL / points_a_frame / (3600.0 * rate)).ceil().max(1.0) * 3600.0 * rate;
+        let hours = (LABEL / points_a_frame / (3600.0 * whole_rate)).ceil().max(1.0) * 3600.0 * whole_rate;
         let major = [1.0, 2.0]
             .into_iter()
             .chain(seconds)
@@ -94,18 +96,19 @@ const LINE: f64 = 7.0;
 const LABEL: f64 = 64.0;
 
 /// Returns the frame nearest to `time`; frame 0 is at zero seconds.
-pub fn frame_of(time: f32, frame_rate: u32) -> i64 {
-    (f64::from(time) * f64::from(frame_rate)).round() as i64
+pub fn frame_of(time: f32, frame_rate: impl Into<f64>) -> i64 {
+    (f64::from(time) * frame_rate.into()).round() as i64
 }
 
 /// Returns the time of a frame, seconds.
-pub fn time_of(frame: i64, frame_rate: u32) -> f32 {
-    (frame as f64 / f64::from(frame_rate.max(1))) as f32
+pub fn time_of(frame: i64, frame_rate: impl Into<f64>) -> f32 {
+    (frame as f64 / frame_rate.into().max(1.0)) as f32
 }
 
 /// Returns the time of the next (`+1`) or previous (`-1`) whole frame.
-pub fn step_frame(time: f32, direction: i64, frame_rate: u32) -> f32 {
-    let exact = f64::from(time) * f64::from(frame_rate);
+pub fn step_frame(time: f32, direction: i64, frame_rate: impl Into<f64>) -> f32 {
+    let frame_rate = frame_rate.into();
+    let exact = f64::from(time) * frame_rate;
     // A time between two frames goes to the nearest frame in that direction, not past it.
     let frame =
         if direction > 0 { (exact + 1e-3).floor() as i64 } else { (exact - 1e-3).ceil() as i64 } + direction;

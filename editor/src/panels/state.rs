@@ -288,7 +288,8 @@ impl State {
     pub fn next_display(&self) -> Option<Duration> {
         let message = self.workspace.status.next_change();
         let measuring = self.workspace.contacts.is_measuring().then_some(Duration::ZERO);
-        [self.workspace.player.next_display(), message, measuring].into_iter().flatten().min()
+        let turning = self.workspace.stage.turn_left(self.workspace.player.now());
+        [self.workspace.player.next_display(), message, measuring, turning].into_iter().flatten().min()
     }
 
     /// Returns the markers and marks as the text of their files.

@@ -181,7 +181,7 @@ fn field_width(ui: &Ui, text: &str) -> f32 {
 /// Draws the time from right to left: frames, seconds.
 fn time(ui: &mut Ui, context: &PanelContext<'_>, room: Room, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
-    let rate = context.frame_rate;
+    let rate = context.frames_per_second();
     let (start, length) = context.take_bounds();
     let mut frame = ruler::frame_of(context.time(), rate);
     let last = format!("/ {}", ruler::frame_of(start + length, rate));

@@ -1,8 +1,10 @@
 //! A pose of any model is written as OBJ and reads back as it was.
 
 use crate::doors::{MemoryFs, TestFolder, model_files};
+use dragonfly_anim::data::ModelData;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::{ReadOptions, obj, read};
+use dragonfly_kit::counting::count;
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -104,4 +106,17 @@ fn every_frame_of_a_sequence_is_the_pose_at_its_time_and_too_many_are_refused() 
     }
     let error = obj::write_sequence(&model, "Fox.obj", 1e9).unwrap_err();
     assert!(error.to_string().contains("fewer frames per second"), "{error}");
+}
+
+#[test]
+fn the_images_of_a_sequence_are_copied_once() {
+    let door = TestFolder(crate::doors::data().join("gltf"));
+    let bytes = std::fs::read(crate::doors::data().join("gltf/Fox.glb")).unwrap();
+    let mut model = read("Fox.glb", &bytes, &door, &ReadOptions::default()).unwrap().model;
+    let allocated =
+        |model: &ModelData| count(|| obj::write_sequence(model, "Fox.obj", 30.0).unwrap()).0.bytes;
+    let small = allocated(&model);
+    model.images[0].bytes = vec![7; 4 << 20].into();
+    let large = allocated(&model);
+    assert!(large - small < 9 << 20, "{} bytes more for an image of 4 MiB", large - small);
 }

@@ -1,6 +1,7 @@
 //! Models for scenes.
 
 use super::{listed, read};
+use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{NoFiles, ReadOptions, read as read_model};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan, StageScene, ThingState};
@@ -20,10 +21,20 @@ pub(super) fn rogue() -> Option<Arc<StageModel>> {
     Some(model(&path))
 }
 
-fn model(path: &Path) -> Arc<StageModel> {
-    let bytes = std::fs::read(path).unwrap();
-    let model = read_model("model.glb", &bytes, &NoFiles, &ReadOptions::default()).unwrap().model;
+/// Returns the fox with another name for its first take.
+pub(super) fn fox_with(take: &str) -> Arc<StageModel> {
+    let mut model = data(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/gltf/Fox.glb"));
+    Arc::make_mut(&mut model.animation.takes[0]).name = take.to_owned();
     Arc::new(StageModel::new(Arc::new(model)))
+}
+
+fn model(path: &Path) -> Arc<StageModel> {
+    Arc::new(StageModel::new(Arc::new(data(path))))
+}
+
+fn data(path: &Path) -> ModelData {
+    let bytes = std::fs::read(path).unwrap();
+    read_model("model.glb", &bytes, &NoFiles, &ReadOptions::default()).unwrap().model
 }
 
 /// Returns assets with `model` under the names `a.glb` and `b.glb`, and a prop without bones as `s.glb`.

@@ -5,8 +5,8 @@ use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, attach_thing, cut_to,
-    delete_clip, duplicate_clip, face_thing, follow_path, move_clip, place_thing, set_fade, set_repeat,
-    set_speed, trim_end, trim_start,
+    delete_clip, duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed,
+    trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::script::{StageRepeat, StageScript};
@@ -21,7 +21,7 @@ fn seconds(seconds: f64) -> StageTime {
 }
 
 /// Does a gesture in a scene of foxes. Returns the text before it and after it.
-fn gesture(
+pub(super) fn gesture(
     actions: &str,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) -> (String, Result<String, GestureRefusal>) {
@@ -33,7 +33,7 @@ fn gesture(
 }
 
 /// Returns the lines after the first that differ, as the gesture left them.
-fn changed(
+pub(super) fn changed(
     actions: &str,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) -> Vec<String> {
@@ -44,7 +44,7 @@ fn changed(
     new.lines().filter(|line| !old.contains(line)).map(|line| line.trim().to_owned()).collect()
 }
 
-fn called(scene: &GestureScene<'_>, id: &str) -> usize {
+pub(super) fn called(scene: &GestureScene<'_>, id: &str) -> usize {
     scene.script.action_called(id).unwrap()
 }
 
@@ -52,7 +52,7 @@ fn moved(scene: &GestureScene<'_>, id: &str, to: f64) -> Result<String, GestureR
     move_clip(scene, called(scene, id), seconds(to), SequenceOrder::Keep, Followers::Follow)
 }
 
-const PAR: &str = "<par id=\"all\" begin=\"1\">\n  <!-- looks -->\n  <play id=\"a\" who=\"anna\" take=\"Survey\"/>\n  <play id=\"b\" who=\"ben\" take=\"Walk\" begin=\"a.end-12f\"/>\n</par>";
+pub(super) const PAR: &str = "<par id=\"all\" begin=\"1\">\n  <!-- looks -->\n  <play id=\"a\" who=\"anna\" take=\"Survey\"/>\n  <play id=\"b\" who=\"ben\" take=\"Walk\" begin=\"a.end-12f\"/>\n</par>";
 
 const SEQ: &str = "<seq>\n  <play id=\"a\" who=\"anna\" take=\"Walk\" repeat=\"2\"/>\n  <play id=\"b\" who=\"anna\" take=\"Survey\" fade-in=\"6f\"/>\n  <play id=\"c\" who=\"anna\" take=\"Run\" begin=\"0.5\"/>\n</seq>";
 
@@ -238,7 +238,7 @@ fn fades_speeds_and_repetitions_are_attributes_that_are_absent_where_they_are_th
 fn a_clip_that_others_refer_to_is_not_deleted_and_one_that_is_deleted_leaves_no_gap_unless_asked() {
     let refusal =
         gesture(PAR, |scene| delete_clip(scene, called(scene, "a"), Followers::Follow)).1.unwrap_err();
-    assert_eq!(refusal.to_string(), "<play> (line 5) depends on it: change that first");
+    assert_eq!(refusal.to_string(), "<play id=\"b\"> (line 5) depends on it: change that first");
     let (old, new) = gesture(SEQ, |scene| delete_clip(scene, called(scene, "b"), Followers::Follow));
     assert_eq!(
         new.unwrap(),
@@ -305,7 +305,10 @@ fn a_new_clip_continues_the_sequence_of_its_role_or_begins_in_a_par() {
     let begin = plan.schedule().times()[5].begin.seconds();
     assert!((8.999..=9.0).contains(&begin), "{begin}");
     assert_eq!(changed(SEQ, add("ben", 0.25)), [r#"<play who="ben" take="Run" begin="0.25"/>"#]);
-    assert_eq!(gesture(SEQ, add("wide", 0.0)).1.unwrap_err().to_string(), "A camera plays no takes");
+    assert_eq!(
+        gesture(SEQ, add("wide", 0.0)).1.unwrap_err().to_string(),
+        "\"wide\" is no role or prop, so it plays no takes"
+    );
 }
 
 #[test]
@@ -410,20 +413,4 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
     }
     println!("{done:?}, {refused} refused");
     assert!(done.len() == 10 && done.values().all(|&count| count > 15), "{done:?}");
-}
-
-#[test]
-fn a_role_that_follows_a_path_gets_one_line_and_what_follows_no_path_is_refused() {
-    let text = fox_script(PAR);
-    let path = read(&text)
-        .things()
-        .find(|thing| thing.row.name == "path")
-        .and_then(|path| path.value("id").map(str::to_owned));
-    let path = path.expect("a path in the cast");
-    let lines = changed(PAR, |scene| follow_path(scene, "anna", &path, Some("Walk"), seconds(2.0)));
-    assert_eq!(lines, [format!("<move who=\"anna\" path=\"{path}\" take=\"Walk\" begin=\"1\"/>")]);
-    for (who, way) in [("nobody", path.as_str()), ("anna", "ben"), (path.as_str(), path.as_str())] {
-        let (_, refused) = gesture(PAR, |scene| follow_path(scene, who, way, None, seconds(0.0)));
-        assert!(refused.is_err(), "{who} follows {way}");
-    }
 }

@@ -106,3 +106,38 @@ fn a_prop_is_held_by_a_foot_that_is_kept_on_the_ground() {
         assert!(sword.distance(foot) < 1e-4, "{frame}: {sword} {foot}");
     }
 }
+
+#[test]
+fn a_thing_that_is_detached_several_times_at_once_lies_where_it_was_held() {
+    let place = |detaches: usize| {
+        let plan = foxes(&format!(
+            "<play who=\"anna\" take=\"Run\" repeat=\"fill\" dur=\"9\"/><move who=\"anna\" to=\"9 0 2\" speed=\"1\"/>\
+             <attach who=\"sword\" to=\"anna.b_Head_05\"/>{}",
+            "<detach who=\"sword\" begin=\"2\"/>".repeat(detaches)
+        ));
+        thing(&plan, &at(&plan, 3.0), "sword").transform.translation
+    };
+    for detaches in [4, 5, 6, 20] {
+        assert_eq!(place(detaches), place(1), "{detaches} times");
+    }
+}
+
+#[test]
+fn looks_of_those_who_hold_count_as_work_and_the_error_is_at_the_detachment() {
+    let looks: String =
+        (0..6_000).map(|at| format!("<look who=\"c\" at=\"p1\" begin=\"{at}ms\" dur=\"1ms\"/>\n")).collect();
+    let held = |at: usize| {
+        let (held, free) = (9_000 + 2 * at, 9_001 + 2 * at);
+        format!("<attach who=\"p0\" to=\"c\" begin=\"{held}ms\"/>\n<detach who=\"p0\" begin=\"{free}ms\"/>\n")
+    };
+    let held: String = (0..6_000).map(held).collect();
+    let text = with_marks(2, &format!("{looks}{held}")).replace("<cast>", "<cast><camera id=\"c\"/>");
+    let Err(errors) = StagePlan::new(&read(&text), &StageAssets::default()) else { panic!("too much") };
+    assert!(errors[0].message.contains("too many things hold or see what is detached here and before"));
+    let line = text.lines().nth(errors[0].place.line as usize - 1).unwrap_or_default();
+    assert!(
+        line.starts_with("<detach") && !errors[0].help.contains("attach one of them"),
+        "{line}: {}",
+        errors[0]
+    );
+}

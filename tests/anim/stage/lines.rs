@@ -3,6 +3,7 @@
 use super::listed;
 use dragonfly_anim::stage::StagePath;
 use dragonfly_anim::stage::line::{DrawnLines, LineSamples, NewLine, fit, path_points};
+use dragonfly_anim::stage::project::StageProject;
 use dragonfly_kit::random::{Random, seed};
 use glam::DVec3;
 
@@ -100,7 +101,7 @@ fn strokes_without_a_length_and_with_numbers_that_are_not_finite_do_no_harm() {
         assert!(control.len() % 3 == 1 && control.iter().all(|point| point.is_finite()), "{tolerance}");
     }
     let none = LineSamples::new(&[], true);
-    assert_eq!((none.length(), none.at(1.0), none.nearest_to(DVec3::ZERO)), (0.0, None, None));
+    assert_eq!((none.length(), none.at(1.0), none.nearest_to_ray(DVec3::ZERO, DVec3::X)), (0.0, None, None));
     let point = LineSamples::new(&[DVec3::X; 4], false);
     assert_eq!((point.length(), point.at(9.0)), (0.0, Some(DVec3::X)));
     assert_eq!(point.nearest_to_ray(DVec3::ZERO, DVec3::X).map(|spot| spot.distance), Some(0.0));
@@ -204,12 +205,14 @@ fn a_path_of_few_points_follows_a_line_within_the_tolerance() {
     let seed = seed(20);
     let mut random = Random::new(seed);
     println!("seed {seed}");
+    let mut checked = 0;
     for round in 0..60 {
-        let mut place = DVec3::ZERO;
+        // A walk whose direction changes gently.
+        let (mut place, mut angle) = (DVec3::ZERO, 0.0_f64);
         let stroke: Vec<DVec3> = (0..60)
             .map(|_| {
-                place +=
-                    DVec3::new(f64::from(random.unit()) - 0.2, 0.0, f64::from(random.unit()) - 0.5) * 0.1;
+                angle += (f64::from(random.unit()) - 0.5) * 0.4;
+                place += DVec3::new(angle.cos(), 0.0, angle.sin()) * 0.1;
                 place
             })
             .collect();
@@ -219,13 +222,16 @@ fn a_path_of_few_points_follows_a_line_within_the_tolerance() {
         if points.len() == 64 {
             continue;
         }
+        checked += 1;
         let path = StagePath::new(&points, true);
         // No place of the path is far from the line, by another way of measuring than that of the library.
+        let on = points_of(&control);
         for step in 0..=50 {
             let on_path = path.at(path.length() * f64::from(step) / 50.0).position;
-            assert!(distance(&control, on_path) <= 0.035, "round {round}: {on_path} is beside the line");
+            assert!(distance(&on, on_path) <= 0.035, "round {round}: {on_path} is beside the line");
         }
     }
+    assert!(checked > 40, "only {checked} of 60 need fewer than 64 points");
     let straight = fit(&[DVec3::ZERO, DVec3::X], 0.01);
     assert_eq!(path_points(&straight, 0.001), [DVec3::ZERO, DVec3::X]);
     assert!(path_points(&[], 0.1).is_empty() && path_points(&[DVec3::X; 4], 0.1).is_empty());
@@ -244,4 +250,16 @@ fn an_attribute_of_a_line_is_set_and_removed_by_a_change_of_its_own_line() {
     assert_eq!(differing, 1, "{blue}");
     assert_eq!(changed.set(1, "color", None).expect("a line").apply(&blue), text);
     assert!(lines.set(2, "color", None).is_none());
+}
+
+#[test]
+fn frames_in_a_file_of_lines_are_those_of_its_project() {
+    let text = FILE.replace("from=\"1.5\"", "from=\"36f\" to=\"90f\"");
+    let shown = |project: &str| {
+        let project = StageProject::read(project).expect("a project");
+        let lines = DrawnLines::read_of(text.as_str(), Some(&project)).expect("lines");
+        lines.list()[0].shown.map(|time| time.expect("a time").seconds())
+    };
+    assert_eq!(shown("<project version=\"1\" fps=\"30\"/>"), [1.2, 3.0]);
+    assert_eq!(shown("<project version=\"1\"/>"), [1.5, 3.75]);
 }

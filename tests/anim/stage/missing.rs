@@ -3,7 +3,7 @@
 use super::actors::{assets, fox, seconds};
 use super::read;
 use dragonfly_anim::stage::script::StageScript;
-use dragonfly_anim::stage::{StageAssets, StagePlan, UNKNOWN_SPEED, UNKNOWN_TAKE};
+use dragonfly_anim::stage::{StageAssets, StagePlan};
 
 /// A fox that is there and a knight who is not: he plays, walks, looks, holds and is looked at.
 const HALF: &str = r#"<script version="1"><cast>
@@ -20,6 +20,12 @@ const HALF: &str = r#"<script version="1"><cast>
 <attach who="sword" to="knight.Hand" begin="bow.low"/>
 <play id="runs" who="fox" take="Run"/>
 </script>"#;
+
+/// Seconds that a take of a missing model lasts.
+const UNKNOWN_TAKE: f64 = 1.0;
+
+/// Meters per second of a walk of a missing model.
+const UNKNOWN_SPEED: f64 = 1.4;
 
 fn half() -> (StageScript, StagePlan) {
     let mut assets = assets(&fox());

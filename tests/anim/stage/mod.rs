@@ -3,11 +3,15 @@
 mod actors;
 mod errors;
 mod feet;
+mod followed_paths;
 mod gestures;
+mod gestures_in_projects;
 mod holding;
+mod kept_times;
 mod lanes;
 mod lines;
 mod live;
+mod many;
 mod missing;
 mod oracle;
 mod paths;
@@ -20,6 +24,7 @@ mod spans;
 mod splices;
 mod times;
 mod travels;
+mod typed;
 mod writing;
 
 use dragonfly_anim::stage::schedule::{Schedule, resolve};

@@ -173,3 +173,39 @@ fn the_usual_cycle_is_explained() {
         "the action before it has no length of its own: give it a `dur`, or this one a `begin`"
     );
 }
+
+#[test]
+fn the_nearest_frame_of_a_time_is_exact_at_every_rate() {
+    for (frames, seconds) in
+        [(1, 1), (24, 1), (24_000, 1001), (30_000, 1001), (60_000, 1001), (1000, 1), (997, 13)]
+    {
+        let rate = StageRate::new(frames, seconds).unwrap();
+        for frame in (-2_000..2_000).chain([86_399_000, -86_399_000, 7_654_321]) {
+            let time = rate.frame(frame);
+            if time.seconds().abs() > 86_000.0 {
+                continue;
+            }
+            assert_eq!(rate.nearest_frame(time), frame, "{frames}/{seconds}");
+            // Nearly half a frame to both sides, by the definition.
+            let half = (rate.frame(1).ticks() - 2) / 2;
+            for away in [half, -half] {
+                assert_eq!(rate.nearest_frame(StageTime::from_ticks(time.ticks() + away)), frame);
+            }
+            // The same in single precision, as a clock has it.
+            assert_eq!(rate.time_of(f64::from(time.seconds() as f32)), time, "{frames}/{seconds}, {frame}");
+        }
+        let between = StageTime::from_ticks(rate.frame(5).ticks() + rate.frame(1).ticks() / 3);
+        let found = rate.time_of(between.seconds());
+        assert!((found.ticks() - between.ticks()).abs() <= 1, "a time between two frames stays there");
+    }
+}
+
+#[test]
+fn a_number_is_the_same_with_any_number_of_zeros_at_its_end() {
+    assert_eq!(Decimal::parse("1.0000000000"), Some(Decimal::ONE));
+    assert_eq!(Decimal::parse("2.50000000000000"), Decimal::parse("2.5"));
+    assert_eq!(Decimal::parse("0.9999999999"), Some(Decimal::ONE), "rounded to nine decimals");
+    assert_eq!(Decimal::parse("-1.4999999996"), Decimal::parse("-1.5"));
+    assert_eq!(StageRate::parse("24.0000000000"), StageRate::new(24, 1));
+    assert_eq!(StageRate::parse("23.97600000000"), StageRate::parse("23.976"));
+}

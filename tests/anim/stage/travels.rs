@@ -1,9 +1,11 @@
 //! Takes that travel: their movements add up over repetitions, parts and actions.
 
 use super::actors::{assets, at, planned, seconds, thing};
+use super::read;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
+use dragonfly_anim::stage::gesture::{GestureScene, face_thing, place_splices, place_thing, spliced_text};
 use dragonfly_anim::stage::{StageModel, StagePath, StagePlan};
 use glam::{DVec3, Quat, Vec3};
 use std::f32::consts::FRAC_PI_2;
@@ -143,4 +145,39 @@ fn paths_are_measured_by_length() {
     }
     assert_eq!(StagePath::new(&[], true).at(1.0).direction, DVec3::ZERO);
     assert_eq!(StagePath::new(&[DVec3::X, DVec3::X], false).length(), 0.0);
+}
+
+#[test]
+fn a_thing_that_walked_since_it_was_placed_is_dragged_to_where_the_pointer_is() {
+    for actions in [
+        "<place who=\"anna\" at=\"1 0 1\" begin=\"0.5\"/>\n<play who=\"anna\" take=\"Step\" repeat=\"3\" begin=\"0.5\"/>",
+        "<place who=\"anna\" at=\"door\" begin=\"0.5\"/>\n<play who=\"anna\" take=\"Step\" repeat=\"3\" begin=\"1\"/>",
+        "<play who=\"anna\" take=\"Step\" repeat=\"3\"/>",
+    ] {
+        let text = format!(
+            "<script version=\"1\"><cast><role id=\"anna\" model=\"a.glb\" scale=\"2\" at=\"1 0 0\" facing=\"90\"/>\
+             <mark id=\"door\" at=\"5 0 3\"/></cast>\n{actions}</script>"
+        );
+        let (script, plan) = (read(&text), planned(&text, &assets(&stepper())));
+        let (time, wanted) = (seconds(2.75), DVec3::new(-3.0, 0.0, 2.5));
+        let scene = GestureScene { script: &script, plan: &plan };
+        let new = place_thing(&scene, "anna", time, wanted).expect("a text");
+        let found = planned(&new, &assets(&stepper())).placement(0, time).expect("a place").position;
+        assert!(found.distance(wanted) < 1.5e-3, "{found} instead of {wanted}: {new}");
+    }
+}
+
+#[test]
+fn a_thing_at_a_mark_is_put_elsewhere_and_turned_at_once_and_is_turned_where_it_is() {
+    let text = "<script version=\"1\"><cast><role id=\"anna\" model=\"a.glb\"/><mark id=\"door\" at=\"5 0 3\" facing=\"90\"/>\
+                </cast><place who=\"anna\" at=\"door\" begin=\"0.5\"/></script>";
+    let (script, plan) = (read(text), planned(text, &assets(&stepper())));
+    let (scene, time) = (GestureScene { script: &script, plan: &plan }, seconds(1.0));
+    let place = |new: &str| planned(new, &assets(&stepper())).placement(0, time).expect("a place");
+    let wanted = DVec3::new(1.0, 0.0, 2.0);
+    let splices = place_splices(&scene, "anna", time, wanted, Some(30.0)).expect("replacements");
+    let put = place(&spliced_text(&script, splices).expect("a text"));
+    assert!(put.position.distance(wanted) < 1e-9 && (put.facing.to_degrees() - 30.0).abs() < 1e-9, "{put:?}");
+    let turned = place(&face_thing(&scene, "anna", time, 0.0).expect("a text"));
+    assert!(turned.position.distance(DVec3::new(5.0, 0.0, 3.0)) < 1e-9 && turned.facing == 0.0, "{turned:?}");
 }

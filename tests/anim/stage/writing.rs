@@ -86,15 +86,22 @@ fn values_are_names_that_exist() {
         "{CAST}<play id=\"grab\" who=\"anna\" take=\"x\"><at name=\"touch\" time=\"1\"/></play><wait begin=\"gr|"
     ));
     assert_eq!(moments, ["grab.touch", "grab.begin", "grab.end"]);
-    let names = CompletionNames { files: &["models/anna.glb", "models/ben.m3d"], plan: None };
+    let names = CompletionNames {
+        models: &["models/anna.glb", "models/ben.m3d"],
+        lines: &["to-ben"],
+        sounds: &["ben.ogg"],
+        plan: None,
+    };
     assert_eq!(suggested("<script version=\"1\"><cast><role model=\"ben|", &names), ["models/ben.m3d"]);
+    assert_eq!(suggested("<script version=\"1\"><cast><path id=\"p\" line=\"|\"/>", &names), ["to-ben"]);
+    assert_eq!(suggested("<script version=\"1\"><sound src=\"|\"/>", &names), ["ben.ogg"]);
 }
 
 #[test]
 fn takes_and_bones_are_those_of_the_role() {
     let text = fox_script("<play who=\"anna\" take=\"Walk\"/>");
     let plan = planned(&text, &assets(&fox()));
-    let names = CompletionNames { plan: Some(&plan), files: &[] };
+    let names = CompletionNames { plan: Some(&plan), ..CompletionNames::default() };
     let at = |actions: &str| suggested(&fox_script(actions), &names);
     assert_eq!(at("<play who=\"anna\" take=\"|\"/>"), ["Survey", "Walk", "Run"]);
     assert_eq!(at("<play who=\"sword\" take=\"|\"/>"), [""; 0]);

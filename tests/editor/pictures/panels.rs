@@ -58,9 +58,7 @@ fn of_scene(id: &str) -> bool {
 
 /// Returns a window in which all panels but one are hidden.
 pub(super) fn only(id: &str, fullness: Fullness) -> Workbench {
-    let of_scene =
-        panels::all().iter().any(|panel| panel.id() == id && panel.subject() == PanelSubject::Scene);
-    let mut bench = if of_scene { fullness.scene() } else { fullness.bench() };
+    let mut bench = if of_scene(id) { fullness.scene() } else { fullness.bench() };
     for other in panels::all().iter().filter(|other| other.id() != id) {
         bench.desk.toggle_panel(other.id());
     }

@@ -4,7 +4,7 @@ use super::{SIZE, arms, projected, script, settings, shown, state, view};
 use dragonfly_anim::fast::matrix::mat4;
 use dragonfly_kit::picture::images::difference;
 use dragonfly_kit::picture::studio;
-use dragonfly_picture::{ThingAppearance, ThroughCamera};
+use dragonfly_picture::{PictureSettings, ThingAppearance, ThroughCamera};
 use glam::Vec3;
 use image::RgbaImage;
 use std::time::Instant;
@@ -159,8 +159,8 @@ fn helpers_and_boxes_of_selected_things_are_drawn_when_asked_for() {
     };
     assert_eq!(lines(&|_| {}), 0, "nothing unless asked for");
     let helpers = lines(&|scene| scene.look.helpers = true);
-    // Two cameras of ten lines, a mark of a circle and an arrow, a path.
-    assert_eq!(helpers, 2 * 10 + 17 + 96);
+    // Two cameras of ten lines, a mark of a circle and an arrow; paths are drawn with the lines.
+    assert_eq!(helpers, 2 * 10 + 17);
     let selected = ThingAppearance { selected: vec!["anna".into()].into(), hovered: Some("door".into()) };
     let boxes = lines(&|scene| {
         scene.look.helpers = false;
@@ -181,4 +181,27 @@ fn a_scene_after_a_lost_device_and_a_model_after_a_scene_are_drawn_as_before() {
     // A model shown after a scene is drawn as before it.
     let after = studio.render(&arm, &settings(ThroughCamera::Free, 0.0)).unwrap();
     assert_eq!(difference(&before, &after), 0);
+}
+
+#[test]
+fn the_letters_of_a_large_title_stay_whole_after_many_other_titles() {
+    let Some(mut studio) = studio::studio() else { return };
+    let letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+    let title = |(at, letter): (usize, char)| {
+        format!(r#"<title text="{letter}" begin="{at}" dur="1" at="0.5 0.5"/>"#)
+    };
+    let titles: String = letters.chars().enumerate().map(title).collect();
+    let wait = format!(r#"<wait dur="{}"/>"#, letters.len());
+    let view =
+        view(&script(r#"<camera id="eye" at="0 0 5" look="0 0 0"/>"#, &format!("<par>{wait}{titles}</par>")));
+    // As high as a picture of a movie for a wall, and as narrow as the middle of a letter.
+    let size = [96, 8192];
+    let mut at = |time: f32| {
+        studio.render_scene(&view, &PictureSettings { size, ..settings(ThroughCamera::Shot, time) }).unwrap()
+    };
+    let first = at(0.5);
+    for letter in 1..letters.len() {
+        assert!(at(letter as f32 + 0.5) != first, "letter {letter} is another one");
+    }
+    assert!(at(0.5) == first, "the first letter looks different after all others");
 }

@@ -3,6 +3,7 @@
 mod cameras;
 mod cost;
 mod drawing;
+mod limits;
 mod lines;
 mod picking;
 mod posing;

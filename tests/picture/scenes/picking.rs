@@ -85,3 +85,32 @@ fn a_model_without_a_scene_has_no_things() {
     assert!(scene.pick_things([160.0, 90.0]).is_empty());
     assert!(scene.things_in(&Region::Box(Vec2::ZERO, Vec2::splat(1000.0))).is_empty());
 }
+
+#[test]
+fn the_first_thing_under_the_pointer_is_the_first_of_all_that_are_there() {
+    // Roles in rows, some of them inside of the boxes of others.
+    let roles: String = (0..12)
+        .map(|role| {
+            let (x, z) = (f64::from(role % 4) * 0.4 - 0.6, f64::from(role / 4) * -0.3);
+            format!(
+                r#"<role id="r{role}" model="arm" at="{x} 0 {z}" scale="{}"/>"#,
+                0.4 + f64::from(role) * 0.05
+            )
+        })
+        .collect();
+    let cast =
+        format!(r#"{roles}<camera id="eye" at="0 1 4" look="0 0.7 0"/><mark id="door" at="0.9 0.2 0"/>"#);
+    let view = view(&script(&cast, r#"<play who="r3" take="bend"/>"#));
+    let mut scene = shown(&view, 0.4);
+    scene.look.helpers = true;
+    let mut found = 0;
+    for x in (0..SIZE[0]).step_by(7) {
+        for y in (0..SIZE[1]).step_by(5) {
+            let at = [x as f32 + 0.5, y as f32 + 0.5];
+            let first = scene.pick_thing(at);
+            assert_eq!(first, scene.pick_things(at).into_iter().next(), "at {at:?}");
+            found += usize::from(first.is_some());
+        }
+    }
+    assert!(found > 100, "only {found} places have a thing");
+}

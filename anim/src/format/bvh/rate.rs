@@ -4,7 +4,7 @@ use super::check as code;
 use super::scene_pose::{ScenePose, SceneSampler};
 use crate::data::{Channel, Interpolation, Skeleton, Take, Track};
 use crate::format::losses::Losses;
-use crate::frames::{FramesError, MOST_POSES};
+use crate::frames::{FramesError, MOST_POSES, OFF_FRAME, frames_over};
 use glam::{DVec3, Vec3};
 
 /// Largest share of the size of the figure by which a bone may be off its curve between two frames.
@@ -24,9 +24,6 @@ const MOST_KEYS: f64 = 1000.0;
 
 /// Places between two frames at which the distance to the curves is measured.
 const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
-
-/// Share of a frame by which a key may be off its frame.
-const OFF_FRAME: f64 = 0.02;
 
 /// Share of a frame by which a key is off its frame because of rounding.
 const EXACT: f64 = 0.002;
@@ -76,7 +73,7 @@ impl FrameGrid {
     }
 
     fn at(rate: f64, start: f64, length: f64, bones: usize) -> Result<Self, FramesError> {
-        let frames = ((length * rate - OFF_FRAME).ceil().max(0.0) as usize).saturating_add(1);
+        let frames = frames_over(length, rate);
         if frames.saturating_mul(bones) > MOST_POSES {
             return Err(FramesError::TooMany { frames, bones });
         }

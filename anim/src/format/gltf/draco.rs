@@ -75,12 +75,23 @@ pub(super) fn decode(document: &GltfDocument<'_>) -> Result<DecodedAccessors, Im
     Ok(decoded)
 }
 
+/// Returns whether every attribute of a primitive, and its indices if it has them, have uncompressed data.
+fn has_plain_data(root: &Root, primitive: &Primitive) -> bool {
+    let accessors = primitive.attributes.values().chain(&primitive.indices);
+    let mut accessors = accessors.map(|accessor| root.accessors.get(accessor.value()));
+    accessors.all(|found| found.is_some_and(|found| found.buffer_view.is_some()))
+}
+
 impl CompressedPrimitive {
     /// Returns the compressed data of a primitive; `None` for one that is not compressed, or has uncompressed data as well.
     fn of(root: &Root, primitive: &Primitive, path: &str) -> Result<Option<Self>, ImportError> {
         let Some(value) = primitive.extensions.as_ref().and_then(|all| all.others.get(NAME)) else {
             return Ok(None);
         };
+        // Uncompressed data is read where there is some, even if the extension is damaged.
+        if has_plain_data(root, primitive) {
+            return Ok(None);
+        }
         let path = format!("{path}/extensions/{NAME}");
         let refuse =
             |reason: &str| invalid(Place::Pointer(path.clone()), code::DRACO_INVALID, reason.to_owned());
@@ -108,12 +119,10 @@ impl CompressedPrimitive {
         }
         let view = Index::new(view);
         let compressed = Self { place: Place::Pointer(path.clone()), view, attributes, indices };
-        let mut has_all = true;
         for accessor in compressed.accessors() {
-            let found = root.accessors.get(accessor).ok_or_else(|| unresolved(&path, accessor))?;
-            has_all &= found.buffer_view.is_some();
+            root.accessors.get(accessor).ok_or_else(|| unresolved(&path, accessor))?;
         }
-        Ok((!has_all).then_some(compressed))
+        Ok(Some(compressed))
     }
 
     /// Returns the numbers of all accessors that get their bytes here.
@@ -152,8 +161,9 @@ impl CompressedPrimitive {
         let mut mesh = draco_core::Mesh::new();
         let mut buffer = DecoderBuffer::new(data).with_limits(limits);
         let damaged = |error| self.refuse(&format!("the compressed data cannot be decoded: {error}"));
-        MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(damaged)?;
+        // The decoder cannot be interrupted: a cancel counts before it.
         document.context.work(data.len())?;
+        MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(damaged)?;
         if mesh.num_points() != points || mesh.num_faces() != corners / 3 || !corners.is_multiple_of(3) {
             let (vertices, triangles) = (mesh.num_points(), mesh.num_faces());
             let found =

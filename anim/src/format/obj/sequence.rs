@@ -1,18 +1,16 @@
 //! A sequence of OBJ files: one for each frame of a take.
 
-use super::write::write;
+use super::write::{shapes, write};
 use crate::data::ModelData;
 use crate::evaluator::Evaluator;
 use crate::format::losses::avatar_lost;
-use crate::format::{ExportError, SavePlan};
+use crate::format::{ExportError, OutputFile, SavePlan};
+use crate::frames::frames_within;
 use std::sync::Arc;
 use thiserror::Error;
 
 /// Largest size of all files together, bytes: they are made in memory.
 const MOST_BYTES: u64 = 1 << 30;
-
-/// Part of a frame by which the end of a take may be before a frame that still belongs to it.
-const OFF_FRAME: f64 = 0.02;
 
 /// Error of a sequence that is too large.
 #[derive(Debug, Error)]
@@ -41,7 +39,7 @@ pub fn write_sequence(model: &ModelData, name: &str, rate: f32) -> Result<SavePl
         return Ok(plan);
     }
     let Some(main) = plan.files.pop() else { return Ok(plan) };
-    let frames = (length * f64::from(rate) + OFF_FRAME).floor().max(0.0) as u64 + 1;
+    let frames = frames_within(length, f64::from(rate)) as u64;
     let bytes = main.bytes.len() as u64;
     if frames.saturating_mul(bytes) > MOST_BYTES {
         return Err(ExportError::new(TooManyFrames { frames, bytes }));
@@ -49,10 +47,8 @@ pub fn write_sequence(model: &ModelData, name: &str, rate: f32) -> Result<SavePl
     for frame in 0..frames {
         let time = f64::from(start) + frame as f64 / f64::from(rate);
         evaluator.pose(Some(0), time as f32);
-        if let Some(mut file) = write(&evaluator, stem).files.pop() {
-            file.name = format!("{stem}_{frame:04}.obj");
-            plan.files.push(file);
-        }
+        let name = format!("{stem}_{frame:04}.obj");
+        plan.files.push(OutputFile { name, bytes: shapes(&evaluator, stem) });
     }
     plan.files.push(main);
     Ok(plan)

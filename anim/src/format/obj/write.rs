@@ -24,9 +24,13 @@ pub fn write(evaluator: &Evaluator, stem: &str) -> SavePlan {
         let text = materials(model, &images);
         plan.files.push(OutputFile { name: format!("{stem}.mtl"), bytes: text.into_bytes() });
     }
-    let text = ObjWriter::default().write(evaluator, stem);
-    plan.files.push(OutputFile { name: format!("{stem}.obj"), bytes: text.into_bytes() });
+    plan.files.push(OutputFile { name: format!("{stem}.obj"), bytes: shapes(evaluator, stem) });
     plan
+}
+
+/// Returns the content of the OBJ file alone: the shapes in the pose that `evaluator` has, with materials of `<stem>.mtl`.
+pub(super) fn shapes(evaluator: &Evaluator, stem: &str) -> Vec<u8> {
+    ObjWriter::default().write(evaluator, stem).into_bytes()
 }
 
 /// Adds the images that materials use, and returns their names.

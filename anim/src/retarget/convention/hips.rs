@@ -7,7 +7,7 @@
 
 use super::part::{BodyPart, BoneRole};
 use crate::animation::to_root;
-use crate::data::Skeleton;
+use crate::data::{BoneIndex, Skeleton};
 use glam::{Mat4, Vec3};
 
 /// Moves the role of the hips to the bone that carries the legs, too, where the hips do not.
@@ -34,7 +34,5 @@ pub(super) fn carry_legs(of: &mut [Option<BoneRole>], skeleton: &Skeleton) {
 
 /// Returns a bone and all bones above it, from the bone up.
 fn path_up(skeleton: &Skeleton, bone: usize) -> impl Iterator<Item = usize> {
-    let parent =
-        |&bone: &usize| Some(skeleton.bones.get(bone)?.parent? as usize).filter(|&parent| parent < bone);
-    std::iter::successors(Some(bone), parent)
+    std::iter::once(bone).chain(skeleton.ancestors(bone as BoneIndex).map(|above| above as usize))
 }

@@ -145,9 +145,7 @@ fn is_chain(part: BodyPart) -> bool {
 }
 
 fn is_below(skeleton: &Skeleton, bone: usize, above: usize) -> bool {
-    let parent =
-        |&bone: &usize| Some(skeleton.bones.get(bone)?.parent? as usize).filter(|&parent| parent < bone);
-    std::iter::successors(Some(bone), parent).skip(1).any(|bone| bone == above)
+    skeleton.ancestors(bone as BoneIndex).any(|bone| bone as usize == above)
 }
 
 /// Returns the name without namespace, capitals and separators.

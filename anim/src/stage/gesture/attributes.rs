@@ -94,5 +94,5 @@ fn change(
     value: Option<String>,
 ) -> Result<String, GestureRefusal> {
     let element = scene.script.actions()[action].element;
-    ScriptDraft::of(scene.script.tree()).with(&[(element, name, value)])?.finish()
+    ScriptDraft::of(scene.script).with(&[(element, name, value)])?.finish()
 }

@@ -1,4 +1,4 @@
-//! The begin of an action, written so that it begins at another time.
+//! The begin and the end of an action, written so that they are at other times.
 
 use super::draft::AttributeChange;
 use super::scene::GestureScene;
@@ -7,6 +7,14 @@ use crate::stage::script::ActionMoment;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::{moment_text, readable};
 
+/// A `begin` or `end` at another time.
+pub(super) struct MovedMoment<'a> {
+    /// The change of the attribute.
+    pub(super) change: AttributeChange<'a>,
+    /// The time by which it moves as it is written.
+    pub(super) by: StageTime,
+}
+
 /// Returns the change of an attribute `begin` or `end` that moves it by `by`. A reference to another action stays one. A begin of zero
 /// after the usual one is not written. Where the new time is no whole number of milliseconds or frames, it is up to a millisecond earlier.
 pub(super) fn moved_moment<'a>(
@@ -14,19 +22,54 @@ pub(super) fn moved_moment<'a>(
     action: usize,
     name: &'a str,
     by: StageTime,
-) -> AttributeChange<'a> {
+) -> MovedMoment<'a> {
     let (own, element) = (&scene.script.actions()[action], scene.script.element(action));
     let old = element.attribute(name).map_or("", |attribute| &*attribute.value);
     let rate = scene.script.rate();
-    let value = match MomentText::parse(old, rate) {
-        Some(MomentText::Of { action, point, offset }) => {
-            Some(MomentText::Of { action, point, offset: readable(offset + by, rate) })
+    let (moment, before, after) = match MomentText::parse(old, rate) {
+        Some(MomentText::Of { action, point, offset: before }) => {
+            let offset = readable(before + by, rate);
+            (MomentText::Of { action, point, offset }, before, offset)
         }
-        Some(MomentText::Offset(offset)) => Some(MomentText::Offset(readable(offset + by, rate))),
-        None => Some(MomentText::Offset(readable(by, rate))),
+        Some(MomentText::Offset(before)) => {
+            let after = readable(before + by, rate);
+            (MomentText::Offset(after), before, after)
+        }
+        None => {
+            let after = readable(by, rate);
+            (MomentText::Offset(after), StageTime::ZERO, after)
+        }
     };
-    let value = value.filter(|moment| name != "begin" || *moment != MomentText::Offset(StageTime::ZERO));
-    (own.element, name, value.map(|moment| moment_text(&moment, rate, old)))
+    let is_usual = name == "begin" && moment == MomentText::Offset(StageTime::ZERO);
+    let value = (!is_usual).then(|| moment_text(&moment, rate, old));
+    MovedMoment { change: (own.element, name, value), by: after - before }
+}
+
+/// Returns the change with which the end of an action stays where it is relative to a begin that moves by `by`: an end that is a time
+/// counts from the usual begin, not from the own one. `None` where it has no such end.
+pub(super) fn following_end(
+    scene: &GestureScene<'_>,
+    action: usize,
+    by: StageTime,
+) -> Option<AttributeChange<'static>> {
+    match scene.script.actions()[action].end? {
+        ActionMoment::Offset(_) => Some(moved_moment(scene, action, "end", by).change),
+        ActionMoment::Begin(..) | ActionMoment::End(..) | ActionMoment::Point(..) => None,
+    }
+}
+
+/// Returns the change that writes `begin` or `end` of a copy of an action as the time `at`, after `base`, its usual begin.
+pub(super) fn written_out<'a>(
+    scene: &GestureScene<'_>,
+    copied: usize,
+    element: usize,
+    name: &'a str,
+    [base, at]: [StageTime; 2],
+) -> AttributeChange<'a> {
+    let old = scene.script.element(copied).attribute(name).map_or("", |attribute| &*attribute.value);
+    let rate = scene.script.rate();
+    let after = MomentText::Offset(readable(at - base, rate));
+    (element, name, Some(moment_text(&after, rate, old)))
 }
 
 /// Returns whether an action begins at its usual time, or a time after it.
@@ -37,6 +80,14 @@ pub(super) fn is_usual(scene: &GestureScene<'_>, action: usize) -> bool {
     }
 }
 
+/// Returns whether an action ends at a moment of another action.
+pub(super) fn ends_with_another(scene: &GestureScene<'_>, action: usize) -> bool {
+    match scene.script.actions()[action].end {
+        None | Some(ActionMoment::Offset(_)) => false,
+        Some(ActionMoment::Begin(..) | ActionMoment::End(..) | ActionMoment::Point(..)) => true,
+    }
+}
+
 /// Returns the change that keeps the action after `action` in a `seq` where it is, while the end of `action` moves by `by`; `None` where none
 /// is needed.
 pub(super) fn kept_follower(
@@ -44,7 +95,7 @@ pub(super) fn kept_follower(
     action: usize,
     by: StageTime,
 ) -> Option<AttributeChange<'static>> {
-    let next = scene.next_in_seq(action).filter(|&next| is_usual(scene, next))?;
+    let next = scene.script.next_in_seq(action).filter(|&next| is_usual(scene, next))?;
     (by != StageTime::ZERO && !scene.script.actions()[action].passive)
-        .then(|| moved_moment(scene, next, "begin", -by))
+        .then(|| moved_moment(scene, next, "begin", -by).change)
 }

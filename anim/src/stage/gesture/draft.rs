@@ -1,22 +1,29 @@
 //! A text that a gesture changes in steps, and the check of the last one.
 
 use super::scene::{GestureRefusal, refused};
-use crate::stage::schedule::resolve;
-use crate::stage::script::{ScriptError, ScriptTree, StageScript};
-use crate::stage::splice::{TextSplices, remove_attribute, set_attribute};
+use crate::stage::schedule::{Schedule, resolve};
+use crate::stage::script::{ScriptTree, StageScript};
+use crate::stage::splice::{ElementPlace, NewElement, TextSplices, insert, remove_attribute, set_attribute};
+use crate::stage::time::StageTime;
 
-/// A text and its elements.
-pub(super) struct ScriptDraft {
-    tree: ScriptTree,
+/// A script, and the text that it becomes. Each step that changes something reads the text once.
+pub(super) struct ScriptDraft<'a> {
+    script: &'a StageScript,
+    /// The text so far with its elements; `None` while it is that of the script.
+    tree: Option<ScriptTree>,
 }
 
 /// A change of an attribute: the element, the name, and the new value; `None` removes it.
 pub(super) type AttributeChange<'a> = (usize, &'a str, Option<String>);
 
-impl ScriptDraft {
-    /// Begins with the text of `tree`.
-    pub(super) fn of(tree: &ScriptTree) -> Self {
-        Self { tree: tree.clone() }
+impl<'a> ScriptDraft<'a> {
+    /// Begins with the text of `script`.
+    pub(super) fn of(script: &'a StageScript) -> Self {
+        Self { script, tree: None }
+    }
+
+    fn tree(&self) -> &ScriptTree {
+        self.tree.as_ref().unwrap_or_else(|| self.script.tree())
     }
 
     /// Makes one step: `find` returns the splices of the text so far.
@@ -24,36 +31,82 @@ impl ScriptDraft {
         self,
         find: impl FnOnce(&ScriptTree) -> Option<TextSplices>,
     ) -> Result<Self, GestureRefusal> {
-        let Some(splices) = find(&self.tree) else {
+        let Some(splices) = find(self.tree()) else {
             return refused("There is no place for it in the script");
         };
         if splices.list().is_empty() {
             return Ok(self);
         }
-        let text = splices.apply(self.tree.text());
-        Ok(Self { tree: ScriptTree::read(text).map_err(|errors| first(&errors))? })
+        let text = splices.apply(self.tree().text());
+        Ok(Self { tree: Some(ScriptTree::read(text)?), ..self })
     }
 
-    /// Changes attributes. Attributes that already have their values stay as they are written.
+    /// Changes attributes, in one step. Attributes that already have their values stay as they are written.
     pub(super) fn with(self, changes: &[AttributeChange<'_>]) -> Result<Self, GestureRefusal> {
-        changes.iter().try_fold(self, |draft, (element, name, value)| {
-            draft.then(|tree| match value {
+        let is_shared = |element: usize| self.tree().elements().get(element).is_some_and(|own| own.is_shared);
+        if let Some((shared, ..)) = changes.iter().find(|(element, ..)| is_shared(*element)) {
+            let id = self.tree().elements()[*shared].value("id").unwrap_or_default();
+            return refused(format!("\"{id}\" belongs to the project: change it there"));
+        }
+        self.then(|tree| {
+            let changed = |(element, name, value): &AttributeChange<'_>| match value {
                 Some(value) => set_attribute(tree, *element, name, value),
                 None => remove_attribute(tree, *element, name),
-            })
+            };
+            let splices: Option<Vec<TextSplices>> = changes.iter().map(changed).collect();
+            TextSplices::joined(splices?)
         })
+    }
+
+    /// Inserts an element; the first step.
+    pub(super) fn insert(self, place: ElementPlace, new: &NewElement) -> Result<Self, GestureRefusal> {
+        if let ElementPlace::After(element) = place {
+            let actions = self.script.actions();
+            let before = actions.iter().position(|action| action.element == element);
+            keeps_prev(self.script, before.and_then(|before| self.script.next_sibling(before)))?;
+        }
+        self.then(|tree| insert(tree, place, new))
     }
 
     /// Returns the text, if it is a script that can be read and whose times do not depend on themselves.
     pub(super) fn finish(self) -> Result<String, GestureRefusal> {
-        let text = self.tree.text().clone();
-        let script = StageScript::read(text.clone()).map_err(|errors| first(&errors))?;
         // Whether times depend on themselves does not depend on how long anything is.
-        resolve(&script, &[]).map_err(|errors| first(&errors))?;
-        Ok(text.to_string())
+        self.finish_with(&[], |_| Ok(()))
+    }
+
+    /// Returns the text as [`Self::finish`] does, if `check` allows the times that follow from the lengths of the actions.
+    pub(super) fn finish_with(
+        self,
+        lengths: &[StageTime],
+        check: impl FnOnce(&Schedule) -> Result<(), GestureRefusal>,
+    ) -> Result<String, GestureRefusal> {
+        let Some(tree) = self.tree else { return Ok(self.script.tree().text().to_string()) };
+        let script = self.script.with_tree(tree)?;
+        check(&resolve(&script, lengths)?)?;
+        Ok(script.tree().text().to_string())
     }
 }
 
-fn first(errors: &[ScriptError]) -> GestureRefusal {
-    GestureRefusal(errors.first().map_or(String::new(), ScriptError::text))
+/// Refuses a change after which one of `actions` has another action before it, where it refers to that one as `prev`: it would begin or end
+/// at another time.
+pub(super) fn keeps_prev(
+    script: &StageScript,
+    actions: impl IntoIterator<Item = usize>,
+) -> Result<(), GestureRefusal> {
+    match actions.into_iter().find(|&action| script.refers_to_prev(action)) {
+        Some(action) => refused(format!(
+            "{} begins or ends relative to the action before it: change that first",
+            script.tree().title(script.actions()[action].element)
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Returns the text of `script` with replacements.
+///
+/// # Errors
+///
+/// The result would be no script, or its times would depend on themselves.
+pub fn spliced_text(script: &StageScript, splices: TextSplices) -> Result<String, GestureRefusal> {
+    ScriptDraft::of(script).then(|_| Some(splices))?.finish()
 }

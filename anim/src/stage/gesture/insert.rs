@@ -2,7 +2,8 @@
 
 use super::draft::ScriptDraft;
 use super::scene::{GestureRefusal, GestureScene, refused};
-use crate::stage::splice::{ElementPlace, NewElement, insert};
+use crate::stage::splice::{ElementPlace, NewElement};
+use crate::stage::table;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::{readable, time_text};
 
@@ -29,7 +30,7 @@ pub fn cut_to(scene: &GestureScene<'_>, camera: &str, at: StageTime) -> Result<S
         .collect();
     shots.sort_by_key(|&shot| (begin(shot), shot));
     let now = shots.iter().rev().find(|&&shot| begin(shot) <= at).copied();
-    let draft = ScriptDraft::of(scene.script.tree());
+    let draft = ScriptDraft::of(scene.script);
     if now.is_some_and(|shot| scene.script.element(shot).value("who") == Some(camera)) {
         return refused(format!("\"{camera}\" is seen at that time already"));
     }
@@ -42,7 +43,7 @@ pub fn cut_to(scene: &GestureScene<'_>, camera: &str, at: StageTime) -> Result<S
     let shot = NewElement::new("shot").with("who", camera);
     let shot =
         shot.with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
-    draft.then(|tree| insert(tree, place, &shot))?.finish()
+    draft.insert(place, &shot)?.finish()
 }
 
 /// Adds a take to a role at `at`: at the end of its `seq` where its last clip is in one, otherwise in a `par`.
@@ -56,11 +57,7 @@ pub fn add_clip(
     take: &str,
     at: StageTime,
 ) -> Result<String, GestureRefusal> {
-    let thing = scene.plan.thing_called(who).and_then(|thing| scene.plan.things().get(thing));
-    let Some(thing) = thing else { return refused(format!("No thing of the cast has the id \"{who}\"")) };
-    if !matches!(thing.kind, "role" | "prop") {
-        return refused(format!("A {} plays no takes", thing.kind));
-    }
+    check_who(scene, who, "play", "plays no takes")?;
     add_action(scene, who, NewElement::new("play").with("who", who).with("take", take), at)
 }
 
@@ -76,16 +73,8 @@ pub fn follow_path(
     take: Option<&str>,
     at: StageTime,
 ) -> Result<String, GestureRefusal> {
-    let kind = |id: &str| {
-        let thing = scene.plan.thing_called(id).and_then(|thing| scene.plan.things().get(thing));
-        thing.map(|thing| thing.kind)
-    };
-    match kind(who) {
-        Some("role" | "prop" | "camera") => {}
-        Some(kind) => return refused(format!("A {kind} follows no path")),
-        None => return refused(format!("No thing of the cast has the id \"{who}\"")),
-    }
-    if kind(path) != Some("path") {
+    check_who(scene, who, "move", "follows no path")?;
+    if kind_of(scene, path) != Some("path") {
         return refused(format!("\"{path}\" is no path of the cast"));
     }
     let step = NewElement::new("move").with("who", who).with("path", path);
@@ -94,6 +83,22 @@ pub fn follow_path(
         None => step,
     };
     add_action(scene, who, step, at)
+}
+
+/// Returns the kind of a thing of the cast.
+fn kind_of(scene: &GestureScene<'_>, id: &str) -> Option<&'static str> {
+    let thing = scene.plan.thing_called(id)?;
+    scene.plan.things().get(thing).map(|thing| thing.kind)
+}
+
+/// Refuses a thing that does no action of this name, with `reason`.
+fn check_who(scene: &GestureScene<'_>, who: &str, action: &str, reason: &str) -> Result<(), GestureRefusal> {
+    let kinds = table::element(action).map_or(&[][..], |row| row.who);
+    match kind_of(scene, who) {
+        Some(kind) if kinds.contains(&kind) => Ok(()),
+        Some(_) => refused(format!("\"{who}\" is no {}, so it {reason}", kinds.join(" or "))),
+        None => refused(format!("No thing of the cast has the id \"{who}\"")),
+    }
 }
 
 /// Adds an action of a thing at `at`: at the end of its `seq` where its last clip is in one, otherwise in a `par`.
@@ -109,9 +114,9 @@ fn add_action(
         (1..scene.script.actions().len()).filter(own).max_by_key(|&action| (scene.times(action).end, action));
     let actions = scene.script.actions();
     let in_seq = last.filter(|&last| {
-        let is_last = actions[last]
-            .parent
-            .is_some_and(|parent| scene.is_seq(parent) && actions[parent].children.last() == Some(&last));
+        let is_last = actions[last].parent.is_some_and(|parent| {
+            scene.script.is_seq(parent) && actions[parent].children.last() == Some(&last)
+        });
         is_last && !actions[last].passive && scene.times(last).end <= at
     });
     let ActionPlace { place, base } = match in_seq {
@@ -124,7 +129,7 @@ fn add_action(
         let begin = time_text(readable(at - base, scene.script.rate()), scene.script.rate(), "");
         action = action.with("begin", begin);
     }
-    ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &action))?.finish()
+    ScriptDraft::of(scene.script).insert(place, &action)?.finish()
 }
 
 /// Attaches a thing to another one, or to a bone of it such as `anna.RightHand`, from `at` on.
@@ -156,7 +161,7 @@ pub fn attach_thing(
         attach = attach
             .with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
     }
-    ScriptDraft::of(scene.script.tree()).then(|tree| insert(tree, place, &attach))?.finish()
+    ScriptDraft::of(scene.script).insert(place, &attach)?.finish()
 }
 
 /// Returns the place after the action `near`, or after the `seq` around it, in a `par`; at the end of the script without one.
@@ -174,8 +179,12 @@ fn place_in_par(scene: &GestureScene<'_>, near: Option<usize>) -> ActionPlace {
             base: StageTime::ZERO,
         };
     };
-    while let Some(parent) = actions[near].parent.filter(|&parent| scene.is_seq(parent)) {
+    while let Some(parent) = actions[near].parent.filter(|&parent| scene.script.is_seq(parent)) {
         near = parent;
+    }
+    // Not between an action and the one that this calls `prev`.
+    while let Some(next) = scene.script.next_sibling(near).filter(|&next| scene.script.refers_to_prev(next)) {
+        near = next;
     }
     let parent = actions[near].parent.unwrap_or(0);
     ActionPlace { place: ElementPlace::After(actions[near].element), base: scene.times(parent).begin }

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! Each function changes as few attributes as it can; comments, layout and spelling of the rest stay ([`splice`](super::splice)). The new text
-//! is always a script that can be read and whose times do not depend on themselves.
+//! is always a script that can be read and whose times do not depend on themselves. Several things at once are changed by
+//! [`place_splices`] and [`face_splices`], whose results [`spliced_text`] applies and checks together.
 //!
 //! | gesture | what it changes |
 //! |---|---|
@@ -19,7 +20,8 @@
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
-//! and a `begin` that refers to another action keeps that reference.
+//! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
+//! `prev` would have another one before it is refused, and so is one of a thing that belongs to the project: it is in another text.
 
 mod attributes;
 mod begin;
@@ -33,10 +35,11 @@ mod scene;
 mod trim;
 
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
+pub use draft::spliced_text;
 pub use insert::{add_clip, attach_thing, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
 pub use path_points::{move_path_point, written_points};
-pub use places::{face_thing, place_thing};
+pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene};
 pub use trim::{trim_end, trim_start};

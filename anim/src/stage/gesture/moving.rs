@@ -1,8 +1,9 @@
 //! Clips moved in time.
 
-use super::begin::{is_usual, kept_follower, moved_moment};
-use super::draft::{AttributeChange, ScriptDraft};
+use super::begin::{ends_with_another, following_end, is_usual, kept_follower, moved_moment};
+use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
 use super::scene::{Followers, GestureRefusal, GestureScene};
+use crate::stage::script::ActionMoment;
 use crate::stage::splice::{AttachedComments, ElementPlace, move_to};
 use crate::stage::time::StageTime;
 
@@ -19,7 +20,8 @@ pub enum SequenceOrder {
 ///
 /// # Errors
 ///
-/// There is no such action, or the new text would be no script, such as one in which an action begins relative to itself.
+/// There is no such action; the new text would be no script, such as one in which an action begins relative to itself; the action would
+/// begin after its end, which is a moment of another one; or it would come between an action and the one that this calls `prev`.
 pub fn move_clip(
     scene: &GestureScene<'_>,
     action: usize,
@@ -27,42 +29,51 @@ pub fn move_clip(
     order: SequenceOrder,
     followers: Followers,
 ) -> Result<String, GestureRefusal> {
-    let element = scene.script.actions().get(action).map_or(0, |own| own.element);
     scene.element(action)?;
-    let times = scene.times(action);
-    let draft = ScriptDraft::of(scene.script.tree());
+    let (own, times) = (&scene.script.actions()[action], scene.times(action));
+    let draft = ScriptDraft::of(scene.script);
     // Also for a time before the start, which brings a long clip before a short one.
     if order == SequenceOrder::Change
         && is_usual(scene, action)
+        && (own.passive || !ends_with_another(scene, action))
         && let Some(place) = new_place(scene, action, to)
     {
+        let mut changes: Vec<AttributeChange<'_>> = vec![(own.element, "begin", None)];
+        if let Some(ActionMoment::Offset(begin)) = own.begin {
+            changes.extend(following_end(scene, action, -begin));
+        }
+        // Three actions have another one before them.
+        let (ElementPlace::First(near) | ElementPlace::After(near)) = place;
+        let before = scene.script.actions().iter().position(|other| other.element == near);
+        let behind = before.and_then(|before| scene.script.next_sibling(before));
+        keeps_prev(
+            scene.script,
+            [Some(action), scene.script.next_sibling(action), behind].into_iter().flatten(),
+        )?;
         return draft
-            .with(&[(element, "begin", None)])?
-            .then(|tree| move_to(tree, element, place, AttachedComments::Follow))?
+            .with(&changes)?
+            .then(|tree| move_to(tree, own.element, place, AttachedComments::Follow))?
             .finish();
     }
     let by = to.max(StageTime::ZERO) - times.begin;
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
     if by != StageTime::ZERO {
-        changes.push(moved_moment(scene, action, "begin", by));
+        let begin = moved_moment(scene, action, "begin", by);
+        changes.push(begin.change);
+        changes.extend(following_end(scene, action, begin.by));
+        // An end at a moment of another action stays there.
+        if followers == Followers::Stay && !ends_with_another(scene, action) {
+            changes.extend(kept_follower(scene, action, begin.by));
+        }
     }
-    // The end follows only where it is relative to what moves.
-    if followers == Followers::Stay && moves_end(scene, action) {
-        changes.extend(kept_follower(scene, action, by));
-    }
-    draft.with(&changes)?.finish()
-}
-
-/// Returns whether the end of an action moves with its begin.
-fn moves_end(scene: &GestureScene<'_>, action: usize) -> bool {
-    scene.script.actions()[action].end.is_none()
+    draft.with(&changes)?.finish_with(&scene.lengths(), |changed| scene.keeps_length(action, changed, action))
 }
 
 /// Returns the place in a `seq` where an action that begins at `to` belongs; `None` where that is its own.
 fn new_place(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Option<ElementPlace> {
     let actions = scene.script.actions();
     let own = &actions[action];
-    let parent = own.parent.filter(|&parent| scene.is_seq(parent))?;
+    let parent = own.parent.filter(|&parent| scene.script.is_seq(parent))?;
     let siblings = &actions[parent].children;
     // Twice the middle, so that it is a whole number of ticks.
     let middle = |action: usize| scene.times(action).begin + scene.times(action).stop;

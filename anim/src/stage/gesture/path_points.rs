@@ -20,9 +20,7 @@ pub fn move_path_point(
     position: DVec3,
 ) -> Result<String, GestureRefusal> {
     let tree = script.tree();
-    let is_path = |id: Option<&str>| id == Some(path);
-    let element =
-        tree.elements().iter().position(|element| element.row.name == "path" && is_path(element.value("id")));
+    let element = script.thing_element(path).filter(|&element| tree.elements()[element].row.name == "path");
     let Some(element) = element else { return refused(format!("No path of the cast has the id \"{path}\"")) };
     let Some(written) = tree.elements()[element].value("points") else {
         return refused(format!("{path} follows a line: its points are those of the line"));
@@ -35,12 +33,12 @@ pub fn move_path_point(
     }
     let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
     let value = format!("{}{point}{}", &written[..range.start], &written[range.end..]);
-    ScriptDraft::of(tree).with(&[(element, "points", Some(value))])?.finish()
+    ScriptDraft::of(script).with(&[(element, "points", Some(value))])?.finish()
 }
 
 /// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.
 pub fn written_points(script: &StageScript, path: &str) -> Option<Vec<DVec3>> {
-    let element = script.things().find(|element| element.value("id") == Some(path))?;
+    let element = &script.tree().elements()[script.thing_element(path)?];
     points(element.value("points").filter(|_| element.row.name == "path")?)
 }
 

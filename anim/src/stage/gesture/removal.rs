@@ -1,17 +1,16 @@
 //! Clips deleted and duplicated.
 
-use super::begin::{is_usual, kept_follower, moved_moment};
-use super::draft::ScriptDraft;
+use super::begin::{ends_with_another, is_usual, kept_follower, moved_moment, written_out};
+use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
 use crate::stage::splice::{AttachedComments, delete, duplicate, named};
 use crate::stage::time::StageTime;
-use crate::stage::time_text::time_text;
 
 /// Deletes an action with everything in it; comments stay.
 ///
 /// # Errors
 ///
-/// There is no such action, or others refer to it.
+/// There is no such action, or others refer to it, also as `prev`.
 pub fn delete_clip(
     scene: &GestureScene<'_>,
     action: usize,
@@ -22,25 +21,22 @@ pub fn delete_clip(
     if let Some(user) = user_of(scene, own.element) {
         return refused(format!("{user} depends on it: change that first"));
     }
-    let mut draft = ScriptDraft::of(scene.script.tree());
+    keeps_prev(scene.script, scene.script.next_sibling(action))?;
+    let mut draft = ScriptDraft::of(scene.script);
     if followers == Followers::Stay {
-        let by = usual_begin(scene, action).map_or(StageTime::ZERO, |base| base - times.end);
+        let by = usual_begin(scene, action) - times.end;
         draft = draft.with(kept_follower(scene, action, by).as_slice())?;
     }
     draft.then(|tree| delete(tree, own.element, AttachedComments::Stay))?.finish()
 }
 
-/// Returns the time at which an action in a `seq` begins without a `begin`: the end of the one before.
-fn usual_begin(scene: &GestureScene<'_>, action: usize) -> Option<StageTime> {
-    let own = &scene.script.actions()[action];
-    let parent = own.parent?;
-    Some(match own.position.checked_sub(1).filter(|_| scene.is_seq(parent)) {
-        Some(before) => scene.times(scene.script.actions()[parent].children[before]).end,
-        None => scene.times(parent).begin,
-    })
+/// Returns the time at which an action begins without a `begin`.
+fn usual_begin(scene: &GestureScene<'_>, action: usize) -> StageTime {
+    let parent = || scene.times(scene.script.actions()[action].parent.unwrap_or(0)).begin;
+    scene.script.before_in_seq(action).map_or_else(parent, |before| scene.times(before).end)
 }
 
-/// Returns `<NAME> (line N)` of an element that refers to an id inside `element` from outside of it.
+/// Returns the title of an element that refers to an id inside `element` from outside of it.
 fn user_of(scene: &GestureScene<'_>, element: usize) -> Option<String> {
     let tree = scene.script.tree();
     let range = tree.elements().get(element)?.range.clone();
@@ -55,28 +51,51 @@ fn user_of(scene: &GestureScene<'_>, element: usize) -> Option<String> {
         let attributes = &tree.elements()[other].attributes;
         attributes.iter().any(|attribute| named(attribute).is_some_and(|name| ids.contains(&name)))
     })?;
-    let line = tree.place(tree.elements()[user].range.start).line;
-    Some(format!("<{}> (line {line})", tree.elements()[user].row.name))
+    Some(tree.title(user))
 }
 
-/// Inserts a copy of an action after it, with ids of its own. In a `seq` it begins when the original ends; elsewhere it gets a `begin`.
+/// Inserts a copy of an action after it, with ids of its own. In a `seq` it begins when the original ends; elsewhere it gets a `begin`. It is as
+/// long as the original.
 ///
 /// # Errors
 ///
-/// There is no such action.
+/// There is no such action; the action after it refers to it as `prev`; or the copy would begin when it ends, because that is a moment of
+/// another action.
 pub fn duplicate_clip(scene: &GestureScene<'_>, action: usize) -> Result<String, GestureRefusal> {
     scene.element(action)?;
     let (own, times) = (&scene.script.actions()[action], scene.times(action));
-    let (tree, rate) = (scene.script.tree(), scene.script.rate());
+    keeps_prev(scene.script, scene.script.next_sibling(action))?;
+    let tree = scene.script.tree();
     let end = tree.elements()[own.element].range.end;
-    let inside = tree.elements()[own.element..].iter().take_while(|inner| inner.range.start < end).count();
-    let draft = ScriptDraft::of(tree).then(|tree| duplicate(tree, own.element))?;
-    let follows = own.parent.is_some_and(|parent| scene.is_seq(parent)) && is_usual(scene, action);
+    let elements = tree.elements()[own.element..].iter().take_while(|inner| inner.range.start < end).count();
+    let within = own.element..own.element + elements;
+    let actions = scene.script.actions();
+    let count = actions.iter().filter(|other| within.contains(&other.element)).count();
+    let (copy, element) = (action + count, own.element + elements);
+    let is_in_seq = scene.script.is_in_seq(action);
     let length = times.stop - times.begin;
-    if follows || length == StageTime::ZERO {
-        return draft.finish();
+    let base = if is_in_seq { times.end } else { usual_begin(scene, action) };
+    let mut changes: Vec<AttributeChange<'_>> = Vec::new();
+    let follows = is_in_seq && is_usual(scene, action);
+    if scene.script.refers_to_prev(action) || !(follows || length == StageTime::ZERO) {
+        // The action before the copy is the original.
+        let is_prev = |name: &str| {
+            scene.script.element(action).value(name).is_some_and(|moment| moment.starts_with("prev."))
+        };
+        changes.push(if is_usual(scene, action) || is_prev("begin") {
+            written_out(scene, action, element, "begin", [base, times.begin + length])
+        } else {
+            let (_, name, value) = moved_moment(scene, action, "begin", length).change;
+            (element, name, value)
+        });
+        if own.end.is_some() && (!ends_with_another(scene, action) || is_prev("end")) {
+            changes.push(written_out(scene, action, element, "end", [base, times.end + length]));
+        }
     }
-    let (_, name, value) = moved_moment(scene, action, "begin", length);
-    let value = value.unwrap_or_else(|| time_text(StageTime::ZERO, rate, ""));
-    draft.with(&[(own.element + inside, name, Some(value))])?.finish()
+    let mut lengths = scene.lengths();
+    lengths.splice(copy..copy, scene.lengths()[action..copy].iter().copied());
+    ScriptDraft::of(scene.script)
+        .then(|tree| duplicate(tree, own.element))?
+        .with(&changes)?
+        .finish_with(&lengths, |changed| scene.keeps_length(action, changed, copy))
 }

@@ -1,8 +1,9 @@
 //! The script and plan that gestures apply to, and the reasons for refusals.
 
+use super::begin::ends_with_another;
 use crate::stage::schedule::{ActionTimes, Schedule};
-use crate::stage::script::{ScriptElement, StageScript};
-use crate::stage::time::{StageTime, parse_time};
+use crate::stage::script::{ScriptElement, ScriptError, StageScript};
+use crate::stage::time::{StageTime, TICKS_PER_SECOND};
 use crate::stage::{StagePlan, StageTake};
 use std::fmt;
 
@@ -36,6 +37,19 @@ impl fmt::Display for GestureRefusal {
 
 impl std::error::Error for GestureRefusal {}
 
+/// The first error of a text as the reason.
+impl From<Vec<ScriptError>> for GestureRefusal {
+    fn from(errors: Vec<ScriptError>) -> Self {
+        Self(errors.first().map_or(String::new(), ScriptError::text))
+    }
+}
+
+/// Shortest duration of a clip that has one: a 240th of a second.
+pub(super) const SHORTEST: StageTime = StageTime::from_ticks(TICKS_PER_SECOND / 240);
+
+/// The reason why an action is not cut down to nothing.
+pub(super) const NO_LENGTH: &str = "It would have no length";
+
 /// Returns a refusal.
 pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, GestureRefusal> {
     Err(GestureRefusal(reason.into()))
@@ -60,21 +74,26 @@ impl<'a> GestureScene<'a> {
         self.schedule().times().get(action).copied().unwrap_or_default()
     }
 
-    /// Returns the duration that an attribute of an action has.
-    pub(super) fn time_of(&self, element: &ScriptElement, name: &str) -> Option<StageTime> {
-        parse_time(element.value(name)?, self.script.rate())
+    /// Returns the duration of one repetition of each action.
+    pub(super) fn lengths(&self) -> Vec<StageTime> {
+        self.schedule().times().iter().map(|times| times.once).collect()
     }
 
-    /// Returns whether an action is a `seq`.
-    pub(super) fn is_seq(&self, action: usize) -> bool {
-        self.script.element(action).row.name == "seq"
-    }
-
-    /// Returns the action after one in a `seq`.
-    pub(super) fn next_in_seq(&self, action: usize) -> Option<usize> {
-        let own = self.script.actions().get(action)?;
-        let parent = own.parent.filter(|&parent| self.is_seq(parent))?;
-        self.script.actions()[parent].children.get(own.position + 1).copied()
+    /// Refuses times after which an action that ends with another one would take no time, unless it does now; it is the action `new` of the
+    /// changed script.
+    pub(super) fn keeps_length(
+        &self,
+        action: usize,
+        changed: &Schedule,
+        new: usize,
+    ) -> Result<(), GestureRefusal> {
+        let lasts = |times: &ActionTimes| times.end - times.begin >= SHORTEST;
+        match changed.times().get(new) {
+            Some(times) if ends_with_another(self, action) && lasts(&self.times(action)) && !lasts(times) => {
+                refused(NO_LENGTH)
+            }
+            Some(_) | None => Ok(()),
+        }
     }
 
     /// Returns the take that an action plays; `None` for other actions, and while the model is missing.

@@ -1,52 +1,54 @@
 //! Clips that begin later or end earlier, with the rest of them where it was.
 
-use super::begin::{kept_follower, moved_moment};
+use super::begin::{MovedMoment, kept_follower, moved_moment};
 use super::draft::{AttributeChange, ScriptDraft};
-use super::scene::{Followers, GestureRefusal, GestureScene, refused};
+use super::scene::{Followers, GestureRefusal, GestureScene, NO_LENGTH, SHORTEST, refused};
 use crate::stage::script::{ScriptElement, StageRepeat};
-use crate::stage::time::{Decimal, StageTime};
-use crate::stage::time_text::{number_text, time_text};
+use crate::stage::time::{Decimal, StageTime, TICKS_PER_SECOND};
+use crate::stage::time_text::{decimal_text, time_text};
 
-/// Shortest duration of a trimmed clip: a 240th of a second.
-const SHORTEST: StageTime = StageTime::from_ticks(crate::stage::time::TICKS_PER_SECOND / 240);
+/// Distance from the pointer up to which the end of a clip that repeats is written with fewer decimals: a tenth of a millisecond.
+const NEAR_END: StageTime = StageTime::from_ticks(TICKS_PER_SECOND / 10_000);
 
 /// Moves the start of an action to `to`, with its end where it is.
 ///
-/// A take loses its start, or gets more of it; one that plays backwards loses its end. A take that plays more than once has no single start
-/// to trim.
+/// A take loses its start, or gets more of it; one that plays backwards loses its end. What plays more than
+/// once has no single start to trim, and a sound without an end plays from its own start.
 ///
 /// # Errors
 ///
-/// There is no such action, it would have no length, the take has nothing before its start, or it repeats.
+/// There is no such action, it would have no length, the take has nothing before its start, it repeats, or it is such a sound.
 pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Result<String, GestureRefusal> {
     let element = scene.element(action)?;
     let (own, times) = (&scene.script.actions()[action], scene.times(action));
     let to = to.max(StageTime::ZERO);
-    let by = to - times.begin;
     if own.children.is_empty() && times.stop > times.begin && times.stop - to < SHORTEST {
-        return refused("It would have no length");
+        return refused(NO_LENGTH);
     }
-    let mut changes = vec![moved_moment(scene, action, "begin", by)];
+    let is_play = element.row.name == "play";
+    if own.repeat == StageRepeat::Fill || (is_play && own.repeat != StageRepeat::Times(Decimal::ONE)) {
+        return refused("It plays more than once: trim its end, or let it play once");
+    }
+    if element.row.name == "sound" && own.dur.is_none() && own.end.is_none() {
+        return refused("A sound plays from its start: move it, or trim its end");
+    }
+    // The rest depends on the start as it is written.
+    let MovedMoment { change, by } = moved_moment(scene, action, "begin", to - times.begin);
+    let mut changes = vec![change];
     if let Some(dur) = own.dur {
-        changes.push((
-            own.element,
-            "dur",
-            Some(text(scene, element, "dur", (dur - by).max(StageTime::ZERO))),
-        ));
+        let rest = (dur - by).max(StageTime::ZERO);
+        changes.push((own.element, "dur", Some(text(scene, element, "dur", rest))));
     }
-    if element.row.name == "play" && own.repeat != StageRepeat::Fill {
-        if own.repeat != StageRepeat::Times(Decimal::ONE) {
-            return refused("It plays more than once: trim its end, or let it play once");
-        }
+    if is_play {
         changes.push(trimmed_take(scene, action, by)?);
     } else if own.dur.is_none() && own.end.is_none() && !own.passive && own.children.is_empty() {
         // An action whose duration is that of its way would end later.
-        let length = times.end - to;
+        let length = times.end - times.begin - by;
         if element.row.attribute("dur").is_some() && times.end > times.begin {
             changes.push((own.element, "dur", Some(text(scene, element, "dur", length))));
         }
     }
-    ScriptDraft::of(scene.script.tree()).with(&changes)?.finish()
+    ScriptDraft::of(scene.script).with(&changes)?.finish()
 }
 
 /// Returns the change of the part of a take whose play begins `by` later.
@@ -56,15 +58,15 @@ fn trimmed_take(
     by: StageTime,
 ) -> Result<AttributeChange<'static>, GestureRefusal> {
     let element = scene.script.element(action);
-    let speed = speed_of(element);
+    let speed = scene.script.speed(action);
     let length = scene.take(element).map(|take| take.length());
     let (name, time) = if speed.is_negative() {
-        let Some(end) = scene.time_of(element, "to").or(length) else {
+        let Some(end) = scene.script.time(element, "to").or(length) else {
             return refused("The take is not known");
         };
         ("to", end + by.times(speed))
     } else {
-        ("from", scene.time_of(element, "from").unwrap_or_default() + by.times(speed))
+        ("from", scene.script.time(element, "from").unwrap_or_default() + by.times(speed))
     };
     if time < StageTime::ZERO || length.is_some_and(|length| time > length) {
         return refused("The take has nothing more there");
@@ -95,33 +97,40 @@ pub fn trim_end(
     }
     let length = to - times.begin;
     if length < SHORTEST {
-        return refused("It would have no length");
+        return refused(NO_LENGTH);
     }
     let by = to - times.end;
-    let mut changes = if by == StageTime::ZERO {
-        Vec::new()
+    // With the time by which the end moves as it is written.
+    let (mut changes, by) = if by == StageTime::ZERO {
+        (Vec::new(), by)
     } else if own.end.is_some() {
-        vec![moved_moment(scene, action, "end", by)]
+        let MovedMoment { change, by } = moved_moment(scene, action, "end", by);
+        (vec![change], by)
     } else if own.dur.is_none() && element.row.name == "play" && !own.passive {
-        played_for(scene, action, length)
+        let (change, written) = played_for(scene, action, length);
+        (vec![change], times.begin + written - times.end)
     } else {
-        vec![(own.element, "dur", Some(text(scene, element, "dur", length)))]
+        (vec![(own.element, "dur", Some(text(scene, element, "dur", length)))], by)
     };
     if followers == Followers::Stay {
         changes.extend(kept_follower(scene, action, by));
     }
-    ScriptDraft::of(scene.script.tree()).with(&changes)?.finish()
+    ScriptDraft::of(scene.script).with(&changes)?.finish()
 }
 
-/// Returns the changes with which a play lasts for `length`.
-fn played_for(scene: &GestureScene<'_>, action: usize, length: StageTime) -> Vec<AttributeChange<'static>> {
+/// Returns the change with which a play lasts for `length`, and how long it then lasts.
+fn played_for(
+    scene: &GestureScene<'_>,
+    action: usize,
+    length: StageTime,
+) -> (AttributeChange<'static>, StageTime) {
     let (own, element) = (&scene.script.actions()[action], scene.script.element(action));
     let once = scene.times(action).once;
-    let speed = speed_of(element);
+    let speed = scene.script.speed(action);
     let take = scene.take(element).map(|take| take.length());
     let (from, to) = (
-        scene.time_of(element, "from").unwrap_or_default(),
-        scene.time_of(element, "to").or(take).unwrap_or_default(),
+        scene.script.time(element, "from").unwrap_or_default(),
+        scene.script.time(element, "to").or(take).unwrap_or_default(),
     );
     let plays_once = own.repeat == StageRepeat::Times(Decimal::ONE);
     // The part of the take that `length` needs, on the clock of the take.
@@ -131,24 +140,32 @@ fn played_for(scene: &GestureScene<'_>, action: usize, length: StageTime) -> Vec
         if speed.is_negative() && part <= to {
             let start = to - part;
             let value = (start > StageTime::ZERO).then(|| text(scene, element, "from", start));
-            return vec![(own.element, "from", value)];
+            return ((own.element, "from", value), length);
         }
         if !speed.is_negative() && from + part <= take {
             let end = from + part;
             let value = (end < take).then(|| text(scene, element, "to", end));
-            return vec![(own.element, "to", value)];
+            return ((own.element, "to", value), length);
         }
     }
     if once <= StageTime::ZERO {
-        return vec![(own.element, "dur", Some(text(scene, element, "dur", length)))];
+        return ((own.element, "dur", Some(text(scene, element, "dur", length))), length);
     }
-    let times = number_text(length.ticks() as f64 / once.ticks() as f64);
-    vec![(own.element, "repeat", (times != "1").then_some(times))]
+    let (times, written) = repeated(once, length);
+    ((own.element, "repeat", (times != "1").then_some(times)), written)
 }
 
-/// Returns the speed of an action.
-pub(super) fn speed_of(element: &ScriptElement) -> Decimal {
-    element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE)
+/// Returns how often something that takes `once` is repeated to last for `length`, with as few decimals as bring it within a tenth of a
+/// millisecond, and how long it then lasts.
+fn repeated(once: StageTime, length: StageTime) -> (String, StageTime) {
+    let exact = length.ticks() as f64 / once.ticks() as f64;
+    let written = |decimals: usize| {
+        let text = decimal_text(exact, decimals);
+        let lasts = Decimal::parse(&text).map_or(StageTime::ZERO, |times| once.times(times));
+        (text, lasts)
+    };
+    let is_near = |lasts: StageTime| (lasts - length).ticks().abs() <= NEAR_END.ticks();
+    (0..9).map(written).find(|(_, lasts)| is_near(*lasts)).unwrap_or_else(|| written(9))
 }
 
 /// Returns a time as the value of an attribute, in the unit that it has there.

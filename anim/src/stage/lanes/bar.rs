@@ -2,7 +2,7 @@
 
 use crate::stage::StagePlan;
 use crate::stage::script::{ScriptElement, StageRepeat, StageScript};
-use crate::stage::time::{Decimal, StageTime, parse_time};
+use crate::stage::time::{Decimal, StageTime};
 
 /// A moment of a take that the script names.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,22 +45,25 @@ pub struct SceneBar {
 }
 
 impl SceneBar {
-    pub(super) fn new(script: &StageScript, plan: &StagePlan, action: usize) -> Self {
+    /// Creates the bar of an action; `sound_stop` is when its sound stops, for a sound.
+    pub(super) fn new(
+        script: &StageScript,
+        plan: &StagePlan,
+        action: usize,
+        sound_stop: Option<StageTime>,
+    ) -> Self {
         let (own, element) = (&script.actions()[action], script.element(action));
         let times = plan.schedule().times()[action];
-        let time = |name: &str| {
-            element.value(name).and_then(|text| parse_time(text, script.rate())).unwrap_or_default()
-        };
+        let time = |name: &str| script.time(element, name).unwrap_or_default();
         let kind = element.row.name;
-        // The length of a sound is that of its file.
-        let sound = plan.sounds().iter().find(|sound| sound.action() == action);
         let is_layered = element.value("layer").is_some() || element.value("bones").is_some();
         Self {
             action,
             kind,
             label: label(element).into(),
             begin: times.begin,
-            end: sound.map_or(times.stop, |sound| sound.stop()),
+            // The length of a sound is that of its file.
+            end: sound_stop.unwrap_or(times.stop),
             once: times.once,
             repeat: own.repeat,
             fade_in: time(if kind == "shot" { "blend" } else { "fade-in" }),
@@ -119,17 +122,7 @@ fn label(element: &ScriptElement) -> String {
 
 /// Returns the moments of the take that an action plays, at their times in the scene.
 fn marks(script: &StageScript, action: usize, begin: StageTime, once: StageTime) -> Vec<BarMark> {
-    let element = script.element(action);
-    let own = script.actions()[action].element;
-    let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
-    let time = |element: &ScriptElement, name: &str| parse_time(element.value(name)?, script.rate());
-    let from = time(element, "from").unwrap_or_default();
-    let parts = script.tree().elements()[own + 1..].iter().take_while(|part| part.parent == Some(own));
-    parts
-        .filter_map(|part| {
-            let after = (time(part, "time")? - from).over(speed);
-            let after = if speed.is_negative() { once - after } else { after };
-            Some(BarMark { name: part.value("name")?.into(), time: begin + after })
-        })
-        .collect()
+    let at = |time: StageTime| begin + script.after_start(action, time, once);
+    let points = script.points(action).into_iter();
+    points.map(|(name, time)| BarMark { name: name.into(), time: at(time) }).collect()
 }

@@ -16,6 +16,7 @@ use super::StagePlan;
 use super::script::StageScript;
 use super::table::ElementGroup;
 use super::time::StageTime;
+use std::collections::HashMap;
 
 /// What a lane is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,12 +72,14 @@ impl SceneLanes {
         let (mut sounds, mut titles) =
             (lane(LaneSubject::Sounds, "Sounds", ""), lane(LaneSubject::Titles, "Titles", ""));
         let mut end = plan.length();
+        let stops: HashMap<usize, StageTime> =
+            plan.sounds().iter().map(|sound| (sound.action(), sound.stop())).collect();
         for action in 1..script.actions().len().min(plan.schedule().times().len()) {
             let element = script.element(action);
             if element.row.group != ElementGroup::Action || element.row.name == "wait" {
                 continue;
             }
-            let bar = SceneBar::new(script, plan, action);
+            let bar = SceneBar::new(script, plan, action, stops.get(&action).copied());
             if !script.actions()[action].passive {
                 end = end.max(bar.end);
             }

@@ -1,12 +1,16 @@
 //! Files of drawn lines.
 
 use super::samples::LineSamples;
+use crate::stage::project::StageProject;
 use crate::stage::script::{ErrorList, ScriptElement, ScriptError, ScriptTree, read_tree};
 use crate::stage::table::{LINE_FILES, points};
 use crate::stage::time::{Decimal, StageRate, StageTime, parse_time};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::sync::Arc;
+
+/// Largest number of curves of a file: some thousand strokes of a pen. Each of them is sampled to be drawn and measured.
+pub const MOST_CURVES: usize = 32_768;
 
 /// A line of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,20 +45,40 @@ pub struct DrawnLines {
 }
 
 impl DrawnLines {
-    /// Reads a file of lines.
+    /// Reads a file of lines. Its frames are those of 24 per second.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong, in the order of the text, as [`crate::stage::script::StageScript::read`] reports it.
+    /// Everything that is wrong, in the order of the text, as [`crate::stage::script::StageScript::read`] reports it; more than
+    /// [`MOST_CURVES`] curves.
     pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
+        Self::read_of(text, None)
+    }
+
+    /// Reads the file of lines of a project, whose frame rate counts for times that are frames.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    pub fn read_of(
+        text: impl Into<Arc<str>>,
+        project: Option<&StageProject>,
+    ) -> Result<Self, Vec<ScriptError>> {
         let text = text.into();
+        let rate = project.map_or_else(StageRate::default, StageProject::rate);
         let tree = read_tree(&text, &LINE_FILES)?;
         let index = tree.lines().clone();
         let mut errors = ErrorList::new(&index);
         let mut ids: HashMap<Box<str>, usize> = HashMap::new();
-        let mut lines = Vec::new();
+        let (mut lines, mut curves) = (Vec::new(), 0);
         for (element, row) in tree.elements().iter().enumerate().skip(1) {
-            let line = drawn(element, row);
+            let line = drawn(element, row, rate);
+            curves += line.points.len() / 3;
+            if curves > MOST_CURVES {
+                let message = format!("the lines have more than {MOST_CURVES} curves together");
+                errors.add(row.value_range("points"), message, "");
+                break;
+            }
             if line.points.len() % 3 != 1 || line.points.len() < 4 {
                 let count = line.points.len();
                 let message = format!("a line needs 3 n + 1 points, such as 4 or 7, not {count}");
@@ -93,8 +117,8 @@ impl DrawnLine {
 }
 
 /// Returns the line of an element whose values were checked.
-fn drawn(element: usize, row: &ScriptElement) -> DrawnLine {
-    let time = |name: &str| row.value(name).and_then(|text| parse_time(text, StageRate::default()));
+fn drawn(element: usize, row: &ScriptElement, rate: StageRate) -> DrawnLine {
+    let time = |name: &str| row.value(name).and_then(|text| parse_time(text, rate));
     let color = row.value("color").and_then(|text| u32::from_str_radix(text.get(1..)?, 16).ok()).unwrap_or(0);
     let [_, red, green, blue] = color.to_be_bytes();
     DrawnLine {

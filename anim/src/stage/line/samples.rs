@@ -6,7 +6,13 @@ use glam::DVec3;
 /// Number of straight pieces of a curve.
 const PIECES: usize = 128;
 
-/// Points along a line, dense enough to measure it: 128 pieces a curve.
+/// Smallest number of pieces of a curve, for a line of very many.
+const FEWEST_PIECES: usize = 8;
+
+/// Number of pieces of a line above which its curves have fewer of them.
+const MOST_PIECES: usize = 1 << 16;
+
+/// Points along a line, dense enough to measure it: 128 pieces a curve, and fewer for lines of more than 512 curves, but 8 at least.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineSamples {
     points: Vec<DVec3>,
@@ -30,9 +36,10 @@ impl LineSamples {
     /// where it starts.
     pub fn new(control: &[DVec3], is_closed: bool) -> Self {
         let mut points: Vec<DVec3> = control.first().copied().into_iter().collect();
+        let pieces = (MOST_PIECES / (control.len() / 3).max(1)).clamp(FEWEST_PIECES, PIECES);
         for curve in control.windows(4).step_by(3) {
             let Ok(curve) = <&[DVec3; 4]>::try_from(curve) else { continue };
-            points.extend((1..=PIECES).map(|piece| position(curve, piece as f64 / PIECES as f64)));
+            points.extend((1..=pieces).map(|piece| position(curve, piece as f64 / pieces as f64)));
         }
         if is_closed {
             points.extend(points.first().copied());
@@ -69,50 +76,35 @@ impl LineSamples {
 
     /// Returns the place that is nearest to a ray from `origin` along `direction`, which has unit length; `None` without points.
     pub fn nearest_to_ray(&self, origin: DVec3, direction: DVec3) -> Option<LineSpot> {
-        self.nearest(|start, end| {
-            let (along, away) = (end - start, start - origin);
-            // The closest points of two lines, and then of the part of each that counts.
-            let (a, b, c) = (along.dot(along), along.dot(direction), along.dot(away));
-            let f = direction.dot(away);
-            let square = a - b * b;
-            let share = if square > a * 1e-12 { ((b * f - c) / square).clamp(0.0, 1.0) } else { 0.0 };
-            let ahead = (b * share + f).max(0.0);
-            let share = if a > 0.0 { ((b * ahead - c) / a).clamp(0.0, 1.0) } else { 0.0 };
-            let position = start + along * share;
-            let ahead = (position - origin).dot(direction).max(0.0);
-            (share, position.distance(origin + direction * ahead))
-        })
-    }
-
-    /// Returns the place that is nearest to `point`; `None` without points.
-    pub fn nearest_to(&self, point: DVec3) -> Option<LineSpot> {
-        self.nearest(|start, end| {
-            let along = end - start;
-            let square = along.length_squared();
-            let share =
-                if square > 0.0 { ((point - start).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-            (share, (start + along * share).distance(point))
-        })
-    }
-
-    /// Returns the place with the smallest distance; `of_piece` returns share and distance on a piece.
-    fn nearest(&self, of_piece: impl Fn(DVec3, DVec3) -> (f64, f64)) -> Option<LineSpot> {
-        let [first, ..] = self.points[..] else { return None };
         let mut found: Option<LineSpot> = None;
-        let mut consider = |[start, end]: [DVec3; 2], [from, to]: [f64; 2]| {
-            let (share, distance) = of_piece(start, end);
+        // A line of one point is a piece that stays there.
+        let pieces = (0..self.points.len().max(2) - 1).filter_map(|at| {
+            let (first, last) = (self.points.get(at)?, self.points.get(at + 1).or(self.points.get(at))?);
+            let lengths = [at, at + 1].map(|at| self.lengths.get(at).copied().unwrap_or(self.length()));
+            Some(([*first, *last], lengths))
+        });
+        for ([start, end], [from, to]) in pieces {
+            let (share, distance) = nearest_on_piece([start, end], origin, direction);
             if found.is_none_or(|best| distance < best.distance) {
                 let (along, position) = (from + (to - from) * share, start + (end - start) * share);
                 found = Some(LineSpot { along, position, distance });
             }
-        };
-        for (points, lengths) in self.points.windows(2).zip(self.lengths.windows(2)) {
-            consider([points[0], points[1]], [lengths[0], lengths[1]]);
-        }
-        // A line of one point is a piece that stays there; nothing else has a place on it.
-        if self.points.len() == 1 {
-            consider([first, first], [0.0, 0.0]);
         }
         found
     }
+}
+
+/// Returns the share of a straight piece that is nearest to a ray, and its distance.
+fn nearest_on_piece([start, end]: [DVec3; 2], origin: DVec3, direction: DVec3) -> (f64, f64) {
+    let (along, away) = (end - start, start - origin);
+    // The closest points of two lines, and then of the part of each that counts.
+    let (a, b, c) = (along.dot(along), along.dot(direction), along.dot(away));
+    let f = direction.dot(away);
+    let square = a - b * b;
+    let share = if square > a * 1e-12 { ((b * f - c) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let ahead = (b * share + f).max(0.0);
+    let share = if a > 0.0 { ((b * ahead - c) / a).clamp(0.0, 1.0) } else { 0.0 };
+    let position = start + along * share;
+    let ahead = (position - origin).dot(direction).max(0.0);
+    (share, position.distance(origin + direction * ahead))
 }

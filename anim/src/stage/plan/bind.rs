@@ -217,7 +217,7 @@ impl<'a> StageBinder<'a> {
 
     /// Returns the span of an action.
     pub(super) fn span(&self, action: usize, times: [StageTime; 2], releases: bool) -> ActiveSpan {
-        ActiveSpan::new(action, self.script.element(action), self.script.rate(), times, releases)
+        ActiveSpan::new(action, self.script, times, releases)
     }
 }
 
@@ -256,8 +256,5 @@ fn branches(skeleton: &Skeleton, bones: &[BoneIndex]) -> Vec<bool> {
 }
 
 fn is_below(skeleton: &Skeleton, bone: BoneIndex, above: BoneIndex) -> bool {
-    let parent = |&bone: &BoneIndex| {
-        skeleton.bones.get(bone as usize).and_then(|bone| bone.parent).filter(|parent| *parent < bone)
-    };
-    std::iter::successors(Some(bone), parent).skip(1).any(|one| one == above)
+    skeleton.ancestors(bone).any(|one| one == above)
 }

@@ -14,7 +14,7 @@ use crate::stage::ease::StageEase;
 use crate::stage::schedule::{ActionTimes, Schedule};
 use crate::stage::script::{ErrorList, ScriptError, StageRepeat, StageScript};
 use crate::stage::table::{numbers, property, vector};
-use crate::stage::time::{Decimal, StageTime, parse_time};
+use crate::stage::time::{Decimal, StageTime};
 use crate::trig::rotation_about;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -215,8 +215,8 @@ impl<'a> PlanBuilder<'a> {
 
     fn add_shot(&mut self, action: usize, bound: &BoundAction, times: ActionTimes) {
         let Some(camera) = bound.who else { return };
-        let (element, rate) = (self.binder.script.element(action), self.binder.script.rate());
-        let blend = element.value("blend").and_then(|text| parse_time(text, rate)).unwrap_or_default();
+        let script = self.binder.script;
+        let blend = script.time(script.element(action), "blend").unwrap_or_default();
         self.shots.push(ShotCue { camera, begin: times.begin, blend });
     }
 

@@ -3,7 +3,7 @@
 use super::StagePlan;
 use super::cameras::camera;
 use super::feet::{RoleSpace, WalkState, keep_feet};
-use super::holds::{HoldKind, MOST_FADES, RigidPlace, fallen};
+use super::holds::{HoldCue, HoldKind, MOST_FADES, RigidPlace, fallen};
 use super::needed::NeededThings;
 use super::places::MotionKind;
 use super::poses::pose_role;
@@ -150,11 +150,7 @@ fn place_of(
 ) -> RigidPlace {
     let planned = &plan.things[thing];
     let begun = planned.holds[..count].partition_point(|hold| hold.begin <= time);
-    let is_known = |kind: &HoldKind| match kind {
-        HoldKind::Attach { .. } => true,
-        HoldKind::Detach { from, .. } => from.is_some(),
-    };
-    let hold = planned.holds[..begun].iter().rposition(|hold| is_known(&hold.kind));
+    let hold = planned.holds[..begun].iter().rposition(HoldCue::is_known);
     let moved = planned.places.last_begin(time);
     let hold = hold
         .filter(|&at| moved.is_none_or(|moved| (planned.holds[at].begin, planned.holds[at].action) > moved));

@@ -1,8 +1,8 @@
 //! Weights of actions that fade in and out.
 
 use crate::stage::ease::smooth;
-use crate::stage::script::ScriptElement;
-use crate::stage::time::{StageRate, StageTime, parse_time};
+use crate::stage::script::StageScript;
+use crate::stage::time::StageTime;
 
 /// When an action is active, and how it fades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,13 +20,12 @@ impl ActiveSpan {
     /// Creates the span of an action. Without the attribute `fill` it is released if `releases`, or if it fades out.
     pub(super) fn new(
         action: usize,
-        element: &ScriptElement,
-        rate: StageRate,
+        script: &StageScript,
         [begin, stop]: [StageTime; 2],
         releases: bool,
     ) -> Self {
-        let time =
-            |name: &str| element.value(name).and_then(|text| parse_time(text, rate)).unwrap_or_default();
+        let element = script.element(action);
+        let time = |name: &str| script.time(element, name).unwrap_or_default();
         let (fade_in, fade_out) = (time("fade-in"), time("fade-out"));
         let is_released = match element.value("fill") {
             Some("hold") => false,

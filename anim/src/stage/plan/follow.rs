@@ -101,7 +101,7 @@ impl PathStride {
 /// A thing on a path.
 #[derive(Clone, Debug)]
 pub(super) struct PathFollower {
-    pub(super) path: StagePath,
+    pub(super) path: Arc<StagePath>,
     /// Whether its height is that of the ground.
     pub(super) is_flat: bool,
     /// Duration of the whole way; of one lap where it repeats without an end.

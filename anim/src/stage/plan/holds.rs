@@ -64,6 +64,22 @@ pub(super) struct HoldCue {
 }
 
 impl HoldCue {
+    /// Returns whether its place is known: that of a detachment is computed in the order of time.
+    pub(super) fn is_known(&self) -> bool {
+        match self.kind {
+            HoldKind::Attach { .. } => true,
+            HoldKind::Detach { from, .. } => from.is_some(),
+        }
+    }
+
+    /// Returns whether another thing, or a point, holds it from then on.
+    pub(super) fn attaches(&self) -> bool {
+        match self.kind {
+            HoldKind::Attach { .. } => true,
+            HoldKind::Detach { .. } => false,
+        }
+    }
+
     /// Returns the thing to which it attaches; `None` where it detaches, or attaches to a point.
     pub(super) fn holder(&self) -> Option<usize> {
         match self.kind {

@@ -38,12 +38,16 @@ use cues::ShotCue;
 use glam::Vec3;
 use holds::HoldKind;
 use needed::NeededThings;
+use std::collections::HashMap;
 
 /// Number of things that may hold one, each through the next.
 const MOST_HOLDERS: usize = 64;
 
 /// Number of places that may be computed to find where things are detached.
 const MOST_COMPUTED: usize = 200_000;
+
+/// Number of attachments and looks that may be considered for that.
+const MOST_CONSIDERED: usize = 50_000_000;
 
 /// A script with its times and models. Never changes, so threads can share it; each needs a [`StageScene`] of its own.
 #[derive(Clone, Debug)]
@@ -52,6 +56,8 @@ pub struct StagePlan {
     rate: StageRate,
     schedule: Schedule,
     things: Vec<PlannedThing>,
+    /// The positions of the things by their ids.
+    positions: HashMap<Box<str>, usize>,
     /// The things, those that hold others first.
     order: Vec<usize>,
     shots: Vec<ShotCue>,
@@ -81,11 +87,13 @@ impl StagePlan {
         level: SimdLevel,
     ) -> Result<Self, Vec<ScriptError>> {
         let builder = PlanBuilder::build(script, assets)?;
+        let things = builder.binder.things;
         let mut plan = Self {
             level,
             rate: script.rate(),
             schedule: builder.schedule,
-            things: builder.binder.things,
+            positions: things.iter().enumerate().map(|(at, thing)| (thing.id.clone(), at)).collect(),
+            things,
             order: Vec::new(),
             shots: builder.shots,
             titles: builder.titles,
@@ -108,9 +116,14 @@ impl StagePlan {
                 return Err(plan.held_wrongly(script, &things, message));
             }
         }
-        if let Err(thing) = plan.detach_places() {
-            let message = "too many things hold or see what is detached here and before".to_owned();
-            return Err(plan.held_wrongly(script, &[thing], message));
+        if let Err(action) = plan.detach_places() {
+            let message = "too many things hold or see what is detached here and before";
+            return Err(wrong_action(
+                script,
+                action,
+                message,
+                "detach fewer things, or let fewer of them look",
+            ));
         }
         Ok(plan)
     }
@@ -119,13 +132,10 @@ impl StagePlan {
     fn held_wrongly(&self, script: &StageScript, things: &[usize], message: String) -> Vec<ScriptError> {
         let action =
             things.iter().find_map(|&thing| self.things[thing].holds.first()).map_or(0, |hold| hold.action);
-        let found = script.with_errors(|errors| {
-            errors.add(script.element(action).name.clone(), message, "attach one of them to something else");
-        });
-        found.err().unwrap_or_default()
+        wrong_action(script, action, message, "attach one of them to something else")
     }
 
-    /// Computes the place where each thing is detached, in the order of time. The error is a thing for which that takes too much.
+    /// Computes the place where each thing is detached, in the order of time. The error is the action for which that takes too much.
     fn detach_places(&mut self) -> Result<(), usize> {
         let mut all: Vec<(StageTime, usize, usize, usize)> = Vec::new();
         for (thing, planned) in self.things.iter().enumerate() {
@@ -140,12 +150,11 @@ impl StagePlan {
         if all.is_empty() {
             return Ok(());
         }
-        let (mut scene, mut needed, mut computed) = (self.new_scene(), NeededThings::new(&self.order), 0);
-        for (begin, _, thing, at) in all {
+        let (mut scene, mut needed) = (self.new_scene(), NeededThings::new(&self.order));
+        for (begin, action, thing, at) in all {
             let place = evaluate::evaluate_one(self, &mut needed, thing, begin, &mut scene);
-            computed += needed.by_rank.len();
-            if computed > MOST_COMPUTED {
-                return Err(thing);
+            if needed.work.things > MOST_COMPUTED || needed.work.cues > MOST_CONSIDERED {
+                return Err(action);
             }
             if let HoldKind::Detach { from, .. } = &mut self.things[thing].holds[at].kind {
                 *from = Some(place);
@@ -176,7 +185,7 @@ impl StagePlan {
 
     /// Returns the position of the thing called `id`.
     pub fn thing_called(&self, id: &str) -> Option<usize> {
-        self.things.iter().position(|thing| &*thing.id == id)
+        self.positions.get(id).copied()
     }
 
     /// Returns the titles.
@@ -234,4 +243,15 @@ impl StagePlan {
     pub fn scene_at(&self, time: StageTime, scene: &mut StageScene) {
         evaluate::evaluate(self, time, scene);
     }
+}
+
+/// Returns an error at the name of an action.
+fn wrong_action(
+    script: &StageScript,
+    action: usize,
+    message: impl Into<String>,
+    help: &str,
+) -> Vec<ScriptError> {
+    let at = script.element(action).name.clone();
+    script.with_errors(|errors| errors.add(at, message, help)).err().unwrap_or_default()
 }

@@ -16,7 +16,7 @@ use crate::stage::model::StageModel;
 use crate::stage::path::StagePath;
 use crate::stage::schedule::{ActionTimes, Schedule, resolve};
 use crate::stage::script::{ErrorList, ScriptError, StageRepeat};
-use crate::stage::time::{Decimal, StageTime, parse_time};
+use crate::stage::time::{Decimal, StageTime};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -133,18 +133,18 @@ impl MotionPlanner<'_, '_> {
     }
 
     /// Returns the path of a `move` that starts at `start`.
-    fn path(&self, action: usize, start: DVec3, position: impl Fn(usize) -> DVec3) -> Option<StagePath> {
+    fn path(&self, action: usize, start: DVec3, position: impl Fn(usize) -> DVec3) -> Option<Arc<StagePath>> {
         let element = self.binder.script.element(action);
         if let Some(path) = element.value("path") {
             let thing = self.binder.script.thing_called(path)?;
-            return self.binder.things.get(thing)?.path.as_deref().cloned();
+            return self.binder.things.get(thing)?.path.clone();
         }
         let target = self.still(self.bound[action].spot?, position);
         let way = target - start;
         let length = way.length();
         let gap = number(element, "gap").unwrap_or(0.0).min(length);
         let end = if length > 0.0 { target - way * (gap / length) } else { target };
-        Some(StagePath::new(&[start, end], false))
+        Some(Arc::new(StagePath::new(&[start, end], false)))
     }
 
     /// Returns whether the model of the thing that acts is missing.
@@ -163,12 +163,11 @@ impl MotionPlanner<'_, '_> {
         if !self.lacks_model(action) {
             return StageTime::ZERO;
         }
-        let (element, rate) = (self.binder.script.element(action), self.binder.script.rate());
-        let time = |name: &str| element.value(name).and_then(|text| parse_time(text, rate));
+        let script = self.binder.script;
+        let time = |name: &str| script.time(script.element(action), name);
         let from = time("from").unwrap_or_default();
         let to = time("to").unwrap_or(from + StageTime::from_seconds(UNKNOWN_TAKE)).max(from);
-        let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
-        (to - from).over(speed)
+        (to - from).over(script.speed(action))
     }
 
     fn stride(&self, action: usize) -> Option<PathStride> {
@@ -193,15 +192,12 @@ impl MotionPlanner<'_, '_> {
     /// Returns the clock of a `play`.
     pub(super) fn play_clock(&self, action: usize) -> Option<PlayClock> {
         let (take, model) = self.bound[action].take.as_ref()?;
-        let (element, rate) = (self.binder.script.element(action), self.binder.script.rate());
+        let script = self.binder.script;
         let length = model.takes().get(*take)?.length();
-        let time = |name: &str| {
-            element.value(name).and_then(|text| parse_time(text, rate)).map(|time| time.min(length))
-        };
+        let time = |name: &str| script.time(script.element(action), name).map(|time| time.min(length));
         let from = time("from").unwrap_or_default();
         let to = time("to").unwrap_or(length).max(from);
-        let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
-        let repeat = self.binder.script.actions()[action].repeat;
+        let (speed, repeat) = (script.speed(action), script.actions()[action].repeat);
         Some(PlayClock { part: [from, to], speed, repeat, once: (to - from).over(speed) })
     }
 
@@ -284,7 +280,13 @@ impl MotionPlanner<'_, '_> {
         }
     }
 
-    fn follower(&self, action: usize, path: StagePath, times: &ActionTimes, facing: f64) -> PathFollower {
+    fn follower(
+        &self,
+        action: usize,
+        path: Arc<StagePath>,
+        times: &ActionTimes,
+        facing: f64,
+    ) -> PathFollower {
         let element = self.binder.script.element(action);
         let own = &self.binder.script.actions()[action];
         let (laps, is_endless) = match own.repeat {

@@ -60,13 +60,8 @@ impl<'a> TimeGraph<'a> {
 
     /// Returns the usual begin of an action (rule 1).
     pub(super) fn base(&self, action: usize) -> Option<TimeNode> {
-        let actions = self.script.actions();
-        let parent = actions[action].parent?;
-        let before = actions[action].position.checked_sub(1).and_then(|at| actions[parent].children.get(at));
-        match before {
-            Some(&before) if self.is(parent, "seq") => Some(TimeNode::End(before)),
-            Some(_) | None => Some(TimeNode::Begin(parent)),
-        }
+        let parent = self.script.actions()[action].parent?;
+        Some(self.script.before_in_seq(action).map_or(TimeNode::Begin(parent), TimeNode::End))
     }
 
     /// Returns the node of a moment.
@@ -102,22 +97,16 @@ impl<'a> TimeGraph<'a> {
     /// Returns the end of a passive action that is no shot: the start of the next one in a `seq` if that has one of its own, otherwise
     /// the end of the nearest `par`.
     pub(super) fn passive_end(&self, index: usize) -> TimeNode {
-        self.next_in_seq(index)
+        self.script
+            .next_in_seq(index)
             .filter(|&next| self.script.actions()[next].begin.is_some())
             .map_or_else(|| self.limit(index), TimeNode::Begin)
-    }
-
-    /// Returns the action after one in a `seq`.
-    pub(super) fn next_in_seq(&self, index: usize) -> Option<usize> {
-        let actions = self.script.actions();
-        let parent = actions[index].parent.filter(|&parent| self.is(parent, "seq"))?;
-        actions[parent].children.get(actions[index].position + 1).copied()
     }
 
     /// Returns the end of the nearest `par` around an action.
     pub(super) fn limit(&self, index: usize) -> TimeNode {
         let mut above = self.script.actions()[index].parent.unwrap_or(0);
-        while self.is(above, "seq") {
+        while self.script.is_seq(above) {
             above = self.script.actions()[above].parent.unwrap_or(0);
         }
         TimeNode::End(above)

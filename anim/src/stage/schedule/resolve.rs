@@ -105,19 +105,11 @@ impl<'a> Resolver<'a> {
             ActionMoment::Begin(other, offset) => self.at(TimeNode::Begin(other)) + offset,
             ActionMoment::End(other, offset) => self.at(TimeNode::End(other)) + offset,
             ActionMoment::Point(other, time, offset) => {
-                self.at(TimeNode::Begin(other)) + self.point(other, time) + offset
+                self.at(TimeNode::Begin(other))
+                    + self.script.after_start(other, time, self.once(other))
+                    + offset
             }
         }
-    }
-
-    /// Returns the time from the start of a play to a time in its take.
-    fn point(&self, play: usize, time: StageTime) -> StageTime {
-        let element = self.script.element(play);
-        let speed = element.value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE);
-        let from =
-            element.value("from").and_then(|text| crate::stage::time::parse_time(text, self.script.rate()));
-        let after = (time - from.unwrap_or_default()).over(speed);
-        if speed.is_negative() { self.once(play) - after } else { after }
     }
 
     fn once(&self, index: usize) -> StageTime {
@@ -214,11 +206,10 @@ fn report_cycle(script: &StageScript, cycle: &[TimeNode], errors: &mut ErrorList
     };
     let mut chain: Vec<String> = cycle.iter().map(title).collect();
     chain.extend(cycle.first().map(title));
-    let graph = TimeGraph::new(script);
     // The usual cause: an action without a length of its own, and one after it that begins when it ends.
     let waiting = cycle.iter().find_map(|node| match *node {
         TimeNode::End(action) if script.actions()[action].passive => {
-            graph.next_in_seq(action).filter(|next| cycle.contains(&TimeNode::Begin(*next)))
+            script.next_in_seq(action).filter(|next| cycle.contains(&TimeNode::Begin(*next)))
         }
         TimeNode::Begin(_) | TimeNode::End(_) | TimeNode::Shots => None,
     });

@@ -71,6 +71,11 @@ impl<'a> ErrorList<'a> {
         self.lines.place(at)
     }
 
+    /// Returns whether no more errors are added.
+    pub(crate) fn is_full(&self) -> bool {
+        self.errors.len() >= MOST_ERRORS
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.errors.is_empty()
     }

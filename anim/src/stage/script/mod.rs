@@ -11,6 +11,7 @@ mod read;
 mod references;
 mod suggest;
 mod text_place;
+mod timing;
 mod tree;
 
 pub use crate::stage::moment::{MomentText, is_name};
@@ -25,7 +26,7 @@ pub use tree::{ScriptAttribute, ScriptElement, ScriptTree};
 
 use crate::stage::project::StageProject;
 use crate::stage::table::{ElementGroup, SCRIPTS, size};
-use crate::stage::time::{Decimal, StageRate, StageTime, parse_time};
+use crate::stage::time::{Decimal, StageRate, StageTime};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -78,6 +79,7 @@ pub struct ScriptAction {
 #[derive(Clone, Debug)]
 pub struct StageScript {
     tree: ScriptTree,
+    project: Option<StageProject>,
     rate: StageRate,
     size: [u32; 2],
     seed: u32,
@@ -116,14 +118,36 @@ impl StageScript {
         text: impl Into<Arc<str>>,
         project: Option<&StageProject>,
     ) -> Result<Self, Vec<ScriptError>> {
-        let text = text.into();
-        let mut tree = read::read_tree(&text, &SCRIPTS)?;
+        Self::of_tree(read::read_tree(&text.into(), &SCRIPTS)?, project.cloned())
+    }
+
+    /// Reads another text as this script was read: with the same project, if it has one.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read_of`].
+    pub fn reread(&self, text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
+        Self::read_of(text, self.project.as_ref())
+    }
+
+    /// Reads a text whose elements are known, as [`Self::reread`] does.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read_of`].
+    pub fn with_tree(&self, tree: ScriptTree) -> Result<Self, Vec<ScriptError>> {
+        Self::of_tree(tree, self.project.clone())
+    }
+
+    fn of_tree(mut tree: ScriptTree, project: Option<StageProject>) -> Result<Self, Vec<ScriptError>> {
+        // A tree of a script has the shared elements already.
+        tree.elements.retain(|element| !element.is_shared);
         let own = tree.elements.len();
-        if let Some(project) = project {
-            tree.elements.extend(project.shared_things(text.len()));
+        if let Some(project) = &project {
+            tree.elements.extend(project.shared_things(tree.text.len()));
         }
         let root = &tree.elements[0];
-        let of_project = |name: &str| project.and_then(|project| project.tree().elements()[0].value(name));
+        let of_project = |name: &str| project.as_ref()?.tree().elements()[0].value(name);
         // A written value has priority, then that of the project, then the default.
         let value = |name: &str| match root.attribute(name) {
             Some(written) => Some(&*written.value),
@@ -134,8 +158,8 @@ impl StageScript {
             value("size").and_then(size).unwrap_or([1280, 720]),
             value("seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
         );
-        let mut script =
-            Self { tree, rate, size, seed, things: Vec::new(), actions: Vec::new(), ids: HashMap::new() };
+        let (things, actions, ids) = (Vec::new(), Vec::new(), HashMap::new());
+        let mut script = Self { tree, project, rate, size, seed, things, actions, ids };
         let lines = script.tree.lines.clone();
         let mut errors = ErrorList::new(&lines);
         script.collect(own, &mut errors);
@@ -191,7 +215,6 @@ impl StageScript {
 
     fn action(&self, index: usize, parent: Option<usize>, position: usize) -> ScriptAction {
         let element = &self.tree.elements[index];
-        let time = |name: &str| element.value(name).and_then(|text| parse_time(text, self.rate));
         let repeat = match element.value("repeat") {
             Some("fill") => StageRepeat::Fill,
             Some(times) => StageRepeat::Times(Decimal::parse(times).unwrap_or(Decimal::ONE)),
@@ -204,7 +227,7 @@ impl StageScript {
             position,
             begin: None,
             end: None,
-            dur: time("dur"),
+            dur: self.time(element, "dur"),
             repeat,
             passive: false,
         }
@@ -235,6 +258,11 @@ impl StageScript {
         self.things.iter().map(|&thing| &self.tree.elements[thing])
     }
 
+    /// Returns the indices of the elements of the things in [`Self::tree`], in the order of the text.
+    pub fn thing_elements(&self) -> impl ExactSizeIterator<Item = usize> {
+        self.things.iter().copied()
+    }
+
     /// Returns the actions, in the order of the text; the first one is the script, which is a `par`.
     pub fn actions(&self) -> &[ScriptAction] {
         &self.actions
@@ -254,6 +282,11 @@ impl StageScript {
             NamedItem::Thing(thing) => Some(*thing),
             NamedItem::Action(_) => None,
         }
+    }
+
+    /// Returns the index of the element of the thing called `id` in [`Self::tree`].
+    pub fn thing_element(&self, id: &str) -> Option<usize> {
+        self.things.get(self.thing_called(id)?).copied()
     }
 
     /// Returns the element of an action.

@@ -2,7 +2,7 @@
 
 use super::{ActionMoment, ErrorList, MomentText, NamedItem, StageRepeat, StageScript, suggestion};
 use crate::stage::table::{NameReference, PROPERTIES, PropertyType, property, vector};
-use crate::stage::time::{Decimal, StageTime, parse_time};
+use crate::stage::time::Decimal;
 
 /// Resolves every reference of `script`, and decides which actions are passive.
 pub(super) fn resolve(script: &mut StageScript, errors: &mut ErrorList) {
@@ -60,7 +60,7 @@ fn moment(script: &StageScript, index: usize, name: &str, errors: &mut ErrorList
         "begin" => Some(ActionMoment::Begin(other, offset)),
         "end" => Some(ActionMoment::End(other, offset)),
         _ => {
-            let points = points(script, other);
+            let points = script.points(other);
             let Some(&(_, time)) = points.iter().find(|(name, _)| *name == point) else {
                 let title = format!("moments of {}", script.tree.title(script.actions[other].element));
                 let names = ["begin", "end"].into_iter().chain(points.iter().map(|&(name, _)| name));
@@ -71,16 +71,6 @@ fn moment(script: &StageScript, index: usize, name: &str, errors: &mut ErrorList
             Some(ActionMoment::Point(other, time, offset))
         }
     }
-}
-
-/// Returns the names and times of the `at` of an action.
-fn points(script: &StageScript, action: usize) -> Vec<(&str, StageTime)> {
-    let own = script.actions[action].element;
-    // The parts of an element follow it directly.
-    let parts = script.tree.elements[own + 1..].iter().take_while(|part| part.parent == Some(own));
-    parts
-        .filter_map(|part| Some((part.value("name")?, parse_time(part.value("time")?, script.rate)?)))
-        .collect()
 }
 
 /// Returns whether an action has no length of its own (rule 3).

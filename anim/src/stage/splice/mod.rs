@@ -74,6 +74,11 @@ impl TextSplices {
         is_ordered.then_some(Self(splices))
     }
 
+    /// Joins replacements of the same text; `None` where two of them overlap.
+    pub fn joined(parts: impl IntoIterator<Item = Self>) -> Option<Self> {
+        Self::new(parts.into_iter().flat_map(|part| part.0).collect())
+    }
+
     /// Creates one replacement.
     pub(super) fn one(range: Range<usize>, text: impl Into<String>) -> Self {
         Self(vec![TextSplice { range, text: text.into() }])
@@ -122,7 +127,7 @@ impl TextSplices {
 }
 
 /// Returns a value as it is written between quotes of this kind.
-pub(super) fn escaped(value: &str, quote: char) -> String {
+pub(in crate::stage) fn escaped(value: &str, quote: char) -> String {
     let mut text = String::with_capacity(value.len());
     for letter in value.chars() {
         match letter {

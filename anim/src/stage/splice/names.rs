@@ -36,9 +36,9 @@ pub fn is_used(tree: &ScriptTree, id: &str) -> bool {
 
 /// Gives an element another id, and changes all references to it.
 ///
-/// `None` where there is no such element, where it has no id, and for an id that is no name or that another element has.
+/// `None` where there is no such element in the text, where it has no id, and for an id that is no name or that another element has.
 pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Option<TextSplices> {
-    let own = tree.elements().get(element)?.attribute("id")?;
+    let own = tree.elements().get(element).filter(|element| !element.is_shared)?.attribute("id")?;
     if &*own.value == id {
         return Some(TextSplices::default());
     }
@@ -47,7 +47,8 @@ pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Option<TextSplices
         return None;
     }
     let names = HashMap::from([(&*own.value, id.to_owned())]);
-    let attributes = tree.elements().iter().flat_map(|element| &element.attributes);
+    let written = tree.elements().iter().filter(|element| !element.is_shared);
+    let attributes = written.flat_map(|element| &element.attributes);
     let text = tree.text();
     Some(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
 }

@@ -18,7 +18,8 @@ pub use reference::NameReference;
 pub use row::{AttributeRow, ElementGroup, ElementRow};
 pub use schema::schema;
 pub use value::ValueRow;
-pub(in crate::stage) use value::{numbers, points, size, vector};
+pub use value::vector;
+pub(in crate::stage) use value::{numbers, points, size};
 pub use vocabulary::{LINE_FILES, PROJECTS, SCRIPTS, Vocabulary};
 
 /// Every element of scripts, in the order of the documentation.

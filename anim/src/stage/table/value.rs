@@ -175,7 +175,7 @@ pub(in crate::stage) fn numbers(text: &str) -> Option<Vec<f64>> {
 }
 
 /// Reads three numbers.
-pub(in crate::stage) fn vector(text: &str) -> Option<glam::DVec3> {
+pub fn vector(text: &str) -> Option<glam::DVec3> {
     let numbers: [f64; 3] = numbers(text)?.try_into().ok()?;
     Some(numbers.into())
 }

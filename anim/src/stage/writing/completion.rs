@@ -1,9 +1,11 @@
 //! Suggestions for the text at the cursor.
 
-use super::cursor::{CursorPlace, OpenTag, place};
+use super::cursor::{AfterName, CursorPlace, OpenTag, place};
 use super::names::{NamedElement, named_elements};
+use crate::stage::splice::escaped;
 use crate::stage::table::{ElementGroup, ElementRow, NameReference, PROPERTIES, children_of, element};
 use crate::stage::{StageModel, StagePlan};
+use std::collections::HashSet;
 use std::ops::Range;
 
 /// What a suggestion is.
@@ -54,20 +56,24 @@ pub struct Completions {
 /// Names that are not in the text.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompletionNames<'a> {
-    /// The last plan that worked, for takes and bones.
+    /// The last plan that worked, for takes and bones, and for things that a project shares.
     pub plan: Option<&'a StagePlan>,
-    /// Files that models, lines and sounds may be.
-    pub files: &'a [&'a str],
+    /// Names for models: files, and ids of a project.
+    pub models: &'a [&'a str],
+    /// Names of drawn lines.
+    pub lines: &'a [&'a str],
+    /// Files of sounds.
+    pub sounds: &'a [&'a str],
 }
 
 /// Returns what may be written at byte `at` of a text; `None` where nothing is suggested.
 pub fn completions(text: &str, at: usize, names: &CompletionNames<'_>) -> Option<Completions> {
     let (range, items) = match place(text, at)? {
-        CursorPlace::Element { typed, around } => (typed, elements(around)),
-        CursorPlace::End { typed, around } => {
-            (typed, vec![item(CompletionKind::Element, around, format!("{around}>"), "End of the element")])
+        CursorPlace::Element { name, continues, around } => (name, elements(around, continues)),
+        CursorPlace::End { name, around } => {
+            (name, vec![item(CompletionKind::Element, around, format!("{around}>"), "End of the element")])
         }
-        CursorPlace::Attribute { typed, tag } => (typed, attributes(&tag)),
+        CursorPlace::Attribute { name, next, tag } => (name, attributes(&tag, next)),
         CursorPlace::Value { typed, whole, attribute, tag } => {
             let value = text.get(typed.clone())?;
             // Lists of names are completed name by name.
@@ -90,16 +96,21 @@ fn item(kind: CompletionKind, label: &str, insert: String, help: &str) -> Comple
     CompletionItem { kind, label: label.to_owned(), cursor: insert.len(), insert, help: help.to_owned() }
 }
 
+/// Returns a value as it is written between quotes of either kind.
 fn word(kind: CompletionKind, word: &str, help: &str) -> CompletionItem {
-    item(kind, word, word.to_owned(), help)
+    item(kind, word, escaped(word, '"').replace('\'', "&apos;"), help)
 }
 
-fn elements(around: Option<&str>) -> Vec<CompletionItem> {
+/// Returns the elements that may be in another one; only their names for a tag that `continues`.
+fn elements(around: Option<&str>, continues: bool) -> Vec<CompletionItem> {
     let rows: Vec<&ElementRow> = match around {
         Some(around) => element(around).map_or(Vec::new(), children_of),
         None => element("script").into_iter().collect(),
     };
     let inserted = |row: &&ElementRow| {
+        if continues {
+            return item(CompletionKind::Element, row.name, row.name.to_owned(), row.help);
+        }
         let required = row.rows().filter(|attribute| attribute.required);
         let attributes: String = required.map(|attribute| format!(" {}=\"\"", attribute.name)).collect();
         let is_container =
@@ -122,7 +133,7 @@ fn elements(around: Option<&str>) -> Vec<CompletionItem> {
     rows.iter().map(inserted).collect()
 }
 
-fn attributes(tag: &OpenTag<'_>) -> Vec<CompletionItem> {
+fn attributes(tag: &OpenTag<'_>, next: AfterName) -> Vec<CompletionItem> {
     let Some(row) = tag.row() else { return Vec::new() };
     let is_excluded =
         |name: &str| row.one_of.contains(&name) && row.one_of.iter().any(|other| tag.value(other).is_some());
@@ -133,11 +144,13 @@ fn attributes(tag: &OpenTag<'_>) -> Vec<CompletionItem> {
     rows.sort_by_key(|attribute| !(attribute.required || row.one_of.contains(&attribute.name)));
     rows.into_iter()
         .map(|attribute| {
-            let insert = format!("{}=\"\"", attribute.name);
-            CompletionItem {
-                cursor: insert.len() - 1,
-                ..item(CompletionKind::Attribute, attribute.name, insert, attribute.help)
-            }
+            let name = attribute.name;
+            let (insert, cursor) = match next {
+                AfterName::Sign => (name.to_owned(), name.len()),
+                AfterName::Name => (format!("{name}=\"\" "), name.len() + 2),
+                AfterName::Gap => (format!("{name}=\"\""), name.len() + 2),
+            };
+            CompletionItem { cursor, ..item(CompletionKind::Attribute, name, insert, attribute.help) }
         })
         .collect()
 }
@@ -154,7 +167,12 @@ fn values(
     if !row.value.choices.is_empty() {
         return row.value.choices.iter().map(|choice| word(CompletionKind::Word, choice, row.help)).collect();
     }
-    let ids = named_elements(text);
+    let mut ids = named_elements(text);
+    // Of a project the text does not have all things.
+    let written: HashSet<&str> = ids.iter().map(|named| named.id).collect();
+    let planned = names.plan.map_or(&[][..], StagePlan::things).iter();
+    let shared = planned.filter(|thing| !written.contains(&*thing.id));
+    ids.extend(shared.map(|thing| NamedElement { kind: thing.kind, id: &thing.id, points: Vec::new() }));
     let model = |who: Option<&str>| model_of(names.plan, who);
     match attribute {
         "who" => things(&ids, |kind| element.who.contains(&kind)),
@@ -162,9 +180,9 @@ fn values(
         "take" => takes(model(tag.value("who"))),
         "bones" => bones(model(tag.value("who")), ""),
         "property" => properties(&ids, tag.value("who")),
-        "model" | "src" | "line" => {
-            names.files.iter().map(|file| word(CompletionKind::File, file, "")).collect()
-        }
+        "model" => files(names.models),
+        "line" => files(names.lines),
+        "src" => files(names.sounds),
         "repeat" => vec![word(CompletionKind::Word, "fill", "For as long as there is time")],
         _ => match row.reference() {
             Some(NameReference::Moment) => moments(&ids),
@@ -173,6 +191,10 @@ fn values(
             Some(NameReference::Spot | NameReference::Name) | None => Vec::new(),
         },
     }
+}
+
+fn files(names: &[&str]) -> Vec<CompletionItem> {
+    names.iter().map(|file| word(CompletionKind::File, file, "")).collect()
 }
 
 fn is_thing(kind: &str) -> bool {

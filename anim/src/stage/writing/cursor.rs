@@ -10,21 +10,25 @@ pub(super) enum CursorPlace<'a> {
     /// In the name of an element, inside of another one; `None` at the start of the text.
     Element {
         /// The bytes of the name.
-        typed: Range<usize>,
+        name: Range<usize>,
+        /// Whether attributes or the end of the tag follow.
+        continues: bool,
         /// Name of the element around.
         around: Option<&'a str>,
     },
     /// In the name of an end tag.
     End {
-        /// The bytes of the name.
-        typed: Range<usize>,
+        /// The bytes of the name, and to the `>` after it if there is one.
+        name: Range<usize>,
         /// Name of the element around.
         around: &'a str,
     },
     /// In the name of an attribute, or where one may be.
     Attribute {
         /// The bytes of the name.
-        typed: Range<usize>,
+        name: Range<usize>,
+        /// The sign after the name.
+        next: AfterName,
         /// The tag that it is in.
         tag: OpenTag<'a>,
     },
@@ -39,6 +43,17 @@ pub(super) enum CursorPlace<'a> {
         /// The tag that it is in.
         tag: OpenTag<'a>,
     },
+}
+
+/// The sign after the name of an attribute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum AfterName {
+    /// `=`: a value.
+    Sign,
+    /// Another name, without a blank in between.
+    Name,
+    /// Anything else.
+    Gap,
 }
 
 /// A start tag.
@@ -82,10 +97,10 @@ pub(super) fn place(text: &str, at: usize) -> Option<CursorPlace<'_>> {
     let name = all.get(open + 1).filter(|token| token.kind == TokenKind::Element);
     let Some(name) = name.filter(|name| name.range.start <= at && name.range.start == all[open].range.end)
     else {
-        return Some(named(text, &all[open], at..at, around));
+        return Some(named(text, &all, open, at..at, around));
     };
     if at <= name.range.end {
-        return Some(named(text, &all[open], name.range.start..at.max(name.range.start), around));
+        return Some(named(text, &all, open, name.range.clone(), around));
     }
     if of(&all[open]) == "</" {
         return None;
@@ -94,7 +109,7 @@ pub(super) fn place(text: &str, at: usize) -> Option<CursorPlace<'_>> {
     let parts = &all[open + 1..close.map_or(all.len(), |close| open + 1 + close)];
     let tag = OpenTag { name: of(name), attributes: attributes(text, parts) };
     match last.kind {
-        TokenKind::Value if inside || !is_closed(of(last)) => {
+        TokenKind::Value if inside || (!is_closed(of(last)) && at == last.range.end) => {
             let attribute = parts
                 .iter()
                 .rev()
@@ -109,25 +124,49 @@ pub(super) fn place(text: &str, at: usize) -> Option<CursorPlace<'_>> {
             })
         }
         TokenKind::Attribute if at <= last.range.end => {
-            Some(CursorPlace::Attribute { typed: last.range.start..at, tag })
+            let next = after_name(text, last.range.end, all.get(before));
+            Some(CursorPlace::Attribute { name: last.range.clone(), next, tag })
         }
         // A name may begin only after a blank.
         _ if text.get(..at)?.ends_with([' ', '\t', '\n', '\r']) => {
-            Some(CursorPlace::Attribute { typed: at..at, tag })
+            Some(CursorPlace::Attribute { name: at..at, next: after_name(text, at, all.get(before)), tag })
         }
         _ => None,
     }
 }
 
+/// Returns the place in the name of the tag that begins with the token at `open`.
 fn named<'a>(
     text: &str,
-    open: &ScriptToken,
-    typed: Range<usize>,
+    all: &[ScriptToken],
+    open: usize,
+    name: Range<usize>,
     around: Option<&'a str>,
 ) -> CursorPlace<'a> {
-    match (text.get(open.range.clone()), around) {
-        (Some("</"), Some(around)) => CursorPlace::End { typed, around },
-        _ => CursorPlace::Element { typed, around },
+    let is_written = all.get(open + 1).is_some_and(|token| token.range == name && !name.is_empty());
+    let next = all.get(open + 1 + usize::from(is_written));
+    let part = |token: &ScriptToken| text.get(token.range.clone()).unwrap_or_default().to_owned();
+    match (text.get(all[open].range.clone()), around) {
+        (Some("</"), Some(around)) => {
+            let end = next.filter(|next| part(next) == ">").map_or(name.end, |next| next.range.end);
+            CursorPlace::End { name: name.start..end, around }
+        }
+        _ => {
+            let begins = |token: &ScriptToken| {
+                matches!(token.kind, TokenKind::Comment | TokenKind::Declaration)
+                    || matches!(&*part(token), "<" | "</")
+            };
+            CursorPlace::Element { name, continues: next.is_some_and(|next| !begins(next)), around }
+        }
+    }
+}
+
+/// Returns what follows the name of an attribute that ends at `end`, before the token `next`.
+fn after_name(text: &str, end: usize, next: Option<&ScriptToken>) -> AfterName {
+    match next {
+        Some(next) if text.get(next.range.clone()) == Some("=") => AfterName::Sign,
+        Some(next) if next.range.start == end && next.kind == TokenKind::Attribute => AfterName::Name,
+        Some(_) | None => AfterName::Gap,
     }
 }
 

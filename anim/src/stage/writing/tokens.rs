@@ -30,7 +30,8 @@ pub struct ScriptToken {
 
 /// Returns the parts of a text in its order. They do not overlap, and their ends are boundaries of characters.
 ///
-/// A quote that is not closed ends at the end of its line, so that one does not color the rest of the text.
+/// A quote that is not closed ends in front of the next attribute, or at the end of its line, so that one does not color the rest of the
+/// text.
 pub fn tokens(text: &str) -> Vec<ScriptToken> {
     let mut lexer = ScriptLexer { bytes: text.as_bytes(), at: 0, found: Vec::with_capacity(text.len() / 8) };
     while let Some(open) = lexer.find(lexer.at, b'<') {
@@ -117,11 +118,51 @@ impl ScriptLexer<'_> {
         let rest = &self.bytes[self.at + 1..];
         let closed = rest.iter().position(|&byte| byte == quote);
         let line = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
-        let end = match closed {
+        let length = match closed {
             // A value may have several lines; one that contains the start of an element was not closed.
-            Some(closed) if closed < line || !rest[..closed].contains(&b'<') => self.at + closed + 2,
-            Some(_) | None => self.at + 1 + line,
+            Some(closed) if closed < line || !rest[..closed].contains(&b'<') => {
+                let next = next_attribute(&rest[..closed]).filter(|_| opens_another(rest, closed));
+                next.unwrap_or(closed + 1)
+            }
+            Some(_) | None => next_attribute(&rest[..line]).unwrap_or_else(|| without_end(&rest[..line])),
         };
-        self.add(TokenKind::Value, end);
+        self.add(TokenKind::Value, self.at + 1 + length);
     }
+}
+
+/// Returns whether the quote that seems to close a value opens the next one: `NAME=` is before it, and neither a blank nor the end of the
+/// tag is after it.
+fn opens_another(rest: &[u8], closed: usize) -> bool {
+    let next = rest.get(closed + 1);
+    rest[..closed].trim_ascii_end().ends_with(b"=")
+        && next.is_some_and(|&byte| !byte.is_ascii_whitespace() && !matches!(byte, b'/' | b'>' | b'?'))
+}
+
+/// Returns the start of the blanks before the first `NAME=` that a quote follows, or the end of `value`.
+fn next_attribute(value: &[u8]) -> Option<usize> {
+    let mut at = 0;
+    while at < value.len() {
+        let blanks = at + value[at..].iter().position(u8::is_ascii_whitespace)?;
+        let skip = |from: usize, is_in: fn(&u8) -> bool| {
+            from + value[from..].iter().position(|byte| !is_in(byte)).unwrap_or(value.len() - from)
+        };
+        let name = skip(blanks, u8::is_ascii_whitespace);
+        let end = skip(name, |byte| byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'_' | b':'));
+        let sign = skip(end, u8::is_ascii_whitespace);
+        if end > name && value[name].is_ascii_alphabetic() && value.get(sign) == Some(&b'=') {
+            let quote = value.get(skip(sign + 1, u8::is_ascii_whitespace));
+            if quote.is_none_or(|quote| matches!(quote, b'"' | b'\'')) {
+                return Some(blanks);
+            }
+        }
+        at = end.max(name).max(blanks + 1);
+    }
+    None
+}
+
+/// Returns the length of a line without the end of a tag that is at its end.
+fn without_end(line: &[u8]) -> usize {
+    let text = line.trim_ascii_end();
+    let inside = text.strip_suffix(b"/>").or_else(|| text.strip_suffix(b">"));
+    inside.map_or(line.len(), <[u8]>::len)
 }

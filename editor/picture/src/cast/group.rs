@@ -1,22 +1,16 @@
 //! The things of a scene that share a model.
 
 use super::pick::GroupPicker;
-use crate::draw_set::DrawSet;
+use crate::draw_set::{DrawSet, PaletteLayout};
 use crate::uniform::Affine;
 use dragonfly_anim::animation::final_pose;
 use dragonfly_anim::bounds::AxisBox;
-use dragonfly_anim::data::ModelData;
 use dragonfly_anim::fast::matrix::mat4;
 use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{Matrix34, Rig, RootPoses, SkinBinding, final_poses, to_root};
 use dragonfly_document::LoadedModel;
 use glam::Mat4;
 use std::sync::Arc;
-
-/// Returns the number of matrices of one copy of a model.
-pub(super) fn matrices(model: &ModelData) -> usize {
-    (model.skins.iter().map(|skin| skin.bones.len()).sum::<usize>() + model.instances.len()).max(1)
-}
 
 /// Copies of a model, one for each thing.
 pub(super) struct CastGroup {
@@ -26,18 +20,18 @@ pub(super) struct CastGroup {
     /// The pose of things that have none: at rest.
     rest: RootPoses,
     bones: usize,
-    /// Created by the first click on one of them.
+    /// Created when the pointer is first over the box around one of them.
     picker: Option<GroupPicker>,
 }
 
 impl CastGroup {
-    pub(super) fn new(loaded: Arc<LoadedModel>, copies: usize) -> Self {
+    pub(super) fn new(loaded: Arc<LoadedModel>, layout: PaletteLayout, copies: usize) -> Self {
         let model = &loaded.model;
         let rig = Rig::new(&model.animation.skeleton);
         let mut rest = RootPoses::new(&rig);
         to_root(SimdLevel::best(), &rig, rig.rest().blocks(), &mut rest);
         let bindings = model.skins.iter().map(|skin| SkinBinding::new(&rig, skin)).collect();
-        let mut draws = DrawSet::new(Arc::clone(&loaded), copies);
+        let mut draws = DrawSet::with_layout(Arc::clone(&loaded), layout, copies);
         for copy in 0..copies {
             let (layout, _, weights) = draws.write(copy);
             for (instance, &(start, count)) in model.instances.iter().zip(&layout.weights) {

@@ -13,27 +13,31 @@ pub use lens::camera as viewport_camera;
 pub use light::{LightKind, SceneLight};
 pub use pick::PickedThing;
 pub(crate) use placeholder::made_model;
+pub use placeholder::placeholder_box;
 
 use super::batch::DrawBatch;
 use super::contact::add_spots;
-use super::draw_set::DrawSet;
+use super::draw_set::{DrawSet, PaletteLayout};
 use super::frustum::ViewFrustum;
 use super::uniform::{LightUniform, SPOTS};
 use crate::camera::Camera;
 use dragonfly_anim::bounds::{AxisBox, Bounds, Sphere};
 use dragonfly_anim::fast::simd::SimdLevel;
-use dragonfly_anim::stage::time::{StageRate, StageTime};
+use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{PlannedThing, StageCamera, StagePlan, StageScene};
 use dragonfly_document::{LoadedModel, SceneModel, SceneView};
 use glam::{Vec3, Vec4};
 use group::CastGroup;
 use placeholder::Placeholders;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Largest number of matrices of one model: what a device can bind at once. Further copies are not drawn.
 const MOST_MATRICES: usize = 2_000_000;
+
+/// Largest number of bytes of the matrices, weights and items of all things. Further things are not drawn.
+const MOST_BYTES: usize = 256 << 20;
 
 /// The camera through which a scene is seen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -82,14 +86,11 @@ pub struct PosedScene {
 
 impl PosedScene {
     /// Returns the scene of `view` before its first time; `None` without a plan. What it has in common with the scene shown `before` is kept.
-    pub fn new(view: &SceneView, before: Option<Self>) -> Option<Self> {
-        Self::without(view, &[], before)
-    }
-
-    /// Does the same as [`Self::new`], and neither draws nor picks the things with the ids `hidden`.
-    pub fn without(view: &SceneView, hidden: &[Arc<str>], before: Option<Self>) -> Option<Self> {
+    /// The things with the ids `hidden` are neither drawn nor picked.
+    pub fn new(view: &SceneView, hidden: &[Arc<str>], before: Option<Self>) -> Option<Self> {
         let plan = Arc::clone(view.plan.as_ref()?);
-        let is_hidden = |thing: &PlannedThing| hidden.iter().any(|id| **id == *thing.id);
+        let hidden: HashSet<&str> = hidden.iter().map(|id| &**id).collect();
+        let is_hidden = |thing: &PlannedThing| hidden.contains(&*thing.id);
         let hidden: Vec<bool> = plan.things().iter().map(is_hidden).collect();
         let (mut old_groups, mut placeholders) =
             before.map_or_else(Default::default, |before| (before.groups, before.placeholders));
@@ -97,30 +98,35 @@ impl PosedScene {
         for (drawn, _) in drawn.iter_mut().zip(&hidden).filter(|(_, hidden)| **hidden) {
             *drawn = None;
         }
-        let mut groups: Vec<(Arc<LoadedModel>, usize)> = Vec::new();
+        let mut groups: Vec<(Arc<LoadedModel>, PaletteLayout, usize)> = Vec::new();
+        let mut bytes = 0;
         let mut index: HashMap<*const LoadedModel, usize> = HashMap::new();
         let members: Vec<Option<CastMember>> = drawn
             .into_iter()
             .map(|drawn| {
                 let (loaded, is_placeholder) = drawn?;
                 let group = *index.entry(Arc::as_ptr(&loaded)).or_insert_with(|| {
-                    groups.push((loaded, 0));
+                    let layout = PaletteLayout::of(&loaded.model);
+                    groups.push((loaded, layout, 0));
                     groups.len() - 1
                 });
-                let (loaded, copies) = &mut groups[group];
+                let (_, layout, copies) = &mut groups[group];
+                let with_own = bytes + layout.bytes();
+                if (*copies + 1) * layout.matrices > MOST_MATRICES || with_own > MOST_BYTES {
+                    return None;
+                }
                 let member = CastMember { group, copy: *copies, is_placeholder };
-                let fits = (*copies + 1) * group::matrices(&loaded.model) <= MOST_MATRICES;
-                *copies += usize::from(fits);
-                fits.then_some(member)
+                (bytes, *copies) = (with_own, *copies + 1);
+                Some(member)
             })
             .collect();
         let groups: Vec<CastGroup> = groups
             .into_iter()
-            .map(|(loaded, copies)| {
+            .map(|(loaded, layout, copies)| {
                 let same = |group: &CastGroup| group.is_of(&loaded, copies);
                 match old_groups.iter().position(same) {
                     Some(old) => old_groups.swap_remove(old),
-                    None => CastGroup::new(loaded, copies),
+                    None => CastGroup::new(loaded, layout, copies),
                 }
             })
             .collect();
@@ -180,7 +186,7 @@ impl PosedScene {
 
     /// Computes the scene at `seconds`. Allocates nothing; at the time computed last, it does nothing.
     pub fn pose(&mut self, seconds: f64) {
-        let time = time_of(seconds, self.plan.rate());
+        let time = self.plan.rate().time_of(seconds);
         if self.at == Some(time) {
             return;
         }
@@ -303,14 +309,6 @@ fn models(
         })
     };
     plan.things().iter().map(model).collect()
-}
-
-/// Returns the time of a clock. Within the precision of clocks near a frame it is that frame, exactly.
-fn time_of(seconds: f64, rate: StageRate) -> StageTime {
-    let frame = (seconds * rate.per_second()).round();
-    let exact = rate.frame(frame as i64);
-    let precision = f64::from(f32::EPSILON) * seconds.abs().max(1.0);
-    if (exact.seconds() - seconds).abs() <= precision { exact } else { StageTime::from_seconds(seconds) }
 }
 
 fn bounds_of(around: &AxisBox) -> Bounds {

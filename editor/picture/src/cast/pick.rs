@@ -49,27 +49,53 @@ impl PosedScene {
     pub(crate) fn pick(&mut self, ray: &CameraRay) -> Vec<PickedThing> {
         let mut hits: Vec<(f32, usize, Option<BoneIndex>)> = Vec::new();
         for thing in 0..self.members.len() {
-            let Some(CastMember { group, is_placeholder, .. }) = self.members[thing] else { continue };
-            if !crosses(ray, self.box_of(thing).min, self.box_of(thing).max) {
-                continue;
-            }
-            let state = &self.state.things[thing];
-            let mut place = state.transform;
-            if is_placeholder {
-                place.scale = Vec3::ONE;
-            }
-            let to_model = Affine3A::from_mat4(place.to_matrix()).inverse();
-            let direction = to_model.transform_vector3(ray.direction);
-            let own = Ray {
-                origin: to_model.transform_point3(ray.origin),
-                direction: direction.normalize_or_zero(),
-            };
-            if let Some((bone, distance)) = self.groups[group].picker().hit(state, &own) {
-                hits.push((distance / direction.length().max(f32::MIN_POSITIVE), thing, bone));
+            if self.reach(ray, thing).is_some() {
+                hits.extend(self.hit(ray, thing).map(|(distance, bone)| (distance, thing, bone)));
             }
         }
         hits.sort_by(|a, b| a.0.total_cmp(&b.0));
         hits.into_iter().map(|(_, thing, bone)| self.picked(thing, bone)).collect()
+    }
+
+    /// Returns the nearest thing on a line of sight. The surfaces of things whose boxes are farther away than it are not searched.
+    pub(crate) fn pick_first(&mut self, ray: &CameraRay) -> Option<PickedThing> {
+        let boxes = (0..self.members.len()).filter_map(|thing| Some((self.reach(ray, thing)?, thing)));
+        let mut boxes: Vec<(f32, usize)> = boxes.collect();
+        boxes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut first: Option<(f32, usize, Option<BoneIndex>)> = None;
+        for (near, thing) in boxes {
+            if first.is_some_and(|first| first.0 < near) {
+                break;
+            }
+            let hit = self.hit(ray, thing).map(|(distance, bone)| (distance, thing, bone));
+            let is_nearer = |hit: &(f32, usize, _)| {
+                first.is_none_or(|first| hit.0.total_cmp(&first.0).then(hit.1.cmp(&first.1)).is_lt())
+            };
+            first = hit.filter(is_nearer).or(first);
+        }
+        first.map(|(_, thing, bone)| self.picked(thing, bone))
+    }
+
+    /// Returns the distance at which a ray enters the box around what is drawn of a thing; `None` where it does not.
+    fn reach(&self, ray: &CameraRay, thing: usize) -> Option<f32> {
+        self.members[thing]?;
+        crosses(ray, self.box_of(thing).min, self.box_of(thing).max)
+    }
+
+    /// Returns the distance at which a ray hits the surface of a thing, and the bone there.
+    fn hit(&mut self, ray: &CameraRay, thing: usize) -> Option<(f32, Option<BoneIndex>)> {
+        let CastMember { group, is_placeholder, .. } = self.members[thing]?;
+        let state = &self.state.things[thing];
+        let mut place = state.transform;
+        if is_placeholder {
+            place.scale = Vec3::ONE;
+        }
+        let to_model = Affine3A::from_mat4(place.to_matrix()).inverse();
+        let direction = to_model.transform_vector3(ray.direction);
+        let own =
+            Ray { origin: to_model.transform_point3(ray.origin), direction: direction.normalize_or_zero() };
+        let (bone, distance) = self.groups[group].picker().hit(state, &own)?;
+        Some((distance / direction.length().max(f32::MIN_POSITIVE), bone))
     }
 
     /// Returns the result for a thing.
@@ -94,14 +120,14 @@ impl PosedScene {
     }
 }
 
-/// Returns whether a ray crosses a box.
-fn crosses(ray: &CameraRay, min: Vec3, max: Vec3) -> bool {
+/// Returns the distance at which a ray enters a box, 0 from inside, in lengths of its direction; `None` where it does not cross it.
+fn crosses(ray: &CameraRay, min: Vec3, max: Vec3) -> Option<f32> {
     let (mut near, mut far) = (0.0_f32, f32::INFINITY);
     for axis in 0..3 {
         let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
         if direction.abs() < f32::MIN_POSITIVE {
             if origin < min[axis] || origin > max[axis] {
-                return false;
+                return None;
             }
             continue;
         }
@@ -109,5 +135,5 @@ fn crosses(ray: &CameraRay, min: Vec3, max: Vec3) -> bool {
         near = near.max(a.min(b));
         far = far.min(a.max(b));
     }
-    near <= far
+    (near <= far).then_some(near)
 }

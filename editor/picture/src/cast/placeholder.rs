@@ -1,6 +1,6 @@
 //! Placeholders for models that are missing or still being read: a figure of human size, or a box for props.
 
-use dragonfly_anim::bounds::bounds_of_pose;
+use dragonfly_anim::bounds::{AxisBox, bounds_of_pose};
 use dragonfly_anim::data::{Material, Mesh, MeshInstance, Metallic, ModelData, Primitive, Vertices};
 use dragonfly_document::LoadedModel;
 use dragonfly_document::images::ImageSurvey;
@@ -40,6 +40,12 @@ impl Placeholders {
         let known = &mut self.0[usize::from(is_role)][color];
         Arc::clone(known.get_or_insert_with(|| Arc::new(model(COLORS[color], is_role))))
     }
+}
+
+/// Returns the box around a placeholder at the origin, meters: a figure for a role, a box for a prop.
+pub fn placeholder_box(is_role: bool) -> AxisBox {
+    let (half, height) = if is_role { (RADIUS, HEIGHT) } else { (HALF_SIDE, 2.0 * HALF_SIDE) };
+    AxisBox { min: Vec3::new(-half, 0.0, -half), max: Vec3::new(half, height, half) }
 }
 
 fn model(color: [f32; 3], is_role: bool) -> LoadedModel {

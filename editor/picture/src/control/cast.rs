@@ -1,11 +1,11 @@
-//! Drawing the things of a scene that have no surface: cameras, lights, marks and paths; and boxes around selected things.
+//! Drawing the things of a scene that have no surface: cameras, lights and marks; and boxes around selected things.
 
 use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;
 use crate::cast::{LightKind, PosedScene};
 use crate::gizmo::{GizmoRole, GizmoShape};
 use dragonfly_anim::bounds::AxisBox;
-use dragonfly_anim::stage::StagePath;
+use dragonfly_anim::stage::StagePlan;
 use glam::{Quat, Vec3};
 use std::f32::consts::TAU;
 use std::sync::Arc;
@@ -29,29 +29,51 @@ const MARK: f32 = 0.25;
 const ROUND: usize = 16;
 /// Half the size of the box around a thing of which nothing is drawn, meters.
 const HALF: f32 = 0.25;
-/// Number of lines of a path.
-const PIECES: usize = 96;
 
 /// Draws the things of a scene.
 #[derive(Default)]
-pub(super) struct CastGraphic;
+pub(super) struct CastGraphic {
+    /// The things of a plan that are selected, by their positions.
+    selected: Option<SelectedThings>,
+}
+
+struct SelectedThings {
+    plan: Arc<StagePlan>,
+    ids: Arc<[Arc<str>]>,
+    is_selected: Vec<bool>,
+}
+
+impl CastGraphic {
+    /// Returns which things are selected. Allocates nothing while the plan and the selection stay the same.
+    fn selected(&mut self, plan: &Arc<StagePlan>, ids: &Arc<[Arc<str>]>) -> &[bool] {
+        let is_same = |known: &SelectedThings| Arc::ptr_eq(&known.plan, plan) && Arc::ptr_eq(&known.ids, ids);
+        let known = self.selected.take().filter(is_same).unwrap_or_else(|| {
+            let mut is_selected = vec![false; plan.things().len()];
+            for thing in ids.iter().filter_map(|id| plan.thing_called(id)) {
+                is_selected[thing] = true;
+            }
+            SelectedThings { plan: Arc::clone(plan), ids: Arc::clone(ids), is_selected }
+        });
+        &self.selected.insert(known).is_selected
+    }
+}
 
 impl GraphicComponent for CastGraphic {
     fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape) {
         let Some(cast) = frame.cast else { return };
         let marked = frame.appearances.get::<ThingAppearance>();
-        let role_of = |id: &str| {
-            let marked = marked?;
-            if marked.selected.iter().any(|selected| **selected == *id) {
+        let is_selected = marked.map_or(&[][..], |marked| self.selected(cast.plan(), &marked.selected));
+        let role_of = |thing: usize, id: &str| {
+            if is_selected.get(thing).copied().unwrap_or(false) {
                 Some(GizmoRole::Selected)
-            } else if marked.hovered.as_deref() == Some(id) {
+            } else if marked?.hovered.as_deref() == Some(id) {
                 Some(GizmoRole::Hover)
             } else {
                 None
             }
         };
         for (thing, planned) in cast.plan().things().iter().enumerate() {
-            let role = role_of(&planned.id);
+            let role = role_of(thing, &planned.id);
             if frame.look.helpers && !cast.is_hidden(thing) {
                 draw(cast, thing, role.unwrap_or(GizmoRole::View), shape);
             }
@@ -101,12 +123,7 @@ fn draw(cast: &PosedScene, thing: usize, role: GizmoRole, shape: &mut GizmoShape
             add_circle(place.translation, (Vec3::X, Vec3::Z), MARK, role, shape);
             shape.add_line(place.translation, place.translation + ahead * MARK * 2.0, role, 1.0);
         }
-        "path" => {
-            if let Some(path) = &planned.path {
-                add_path(path, role, shape);
-            }
-        }
-        // Roles, props and effects.
+        // Roles, props and effects; paths are drawn with the lines.
         _ => {}
     }
 }
@@ -131,16 +148,6 @@ fn add_circle(at: Vec3, (right, up): (Vec3, Vec3), radius: f32, role: GizmoRole,
     };
     for side in 0..ROUND {
         shape.add_line(point(side), point(side + 1), role, 1.0);
-    }
-}
-
-fn add_path(path: &StagePath, role: GizmoRole, shape: &mut GizmoShape) {
-    let at = |piece: usize| path.at(path.length() * piece as f64 / PIECES as f64).position.as_vec3();
-    let mut before = at(0);
-    for piece in 1..=PIECES {
-        let next = at(piece);
-        shape.add_line(before, next, role, 0.8);
-        before = next;
     }
 }
 

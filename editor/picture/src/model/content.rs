@@ -2,7 +2,7 @@
 
 use super::geometry::GpuGeometry;
 use super::groups::DrawGroups;
-use super::images::ModelImages;
+use super::images::{ModelImages, PixelBudget};
 use super::material::{GpuMaterials, MaterialGroups};
 use super::pipeline::ModelPipelines;
 use super::recorder::DrawRecorder;
@@ -97,18 +97,18 @@ impl ModelContent {
         self.images.is_loading()
     }
 
-    /// Uploads the next images, of about `pixels` pixels.
+    /// Uploads the next images, as far as the budget of the frame goes.
     pub(super) fn upload(
         &mut self,
         gpu: &Gpu,
         maker: &mut TextureMaker,
         materials: &GpuMaterials,
-        pixels: u64,
+        budget: &mut PixelBudget,
         warnings: &mut Vec<String>,
     ) {
         let is_loading = self.images.is_loading();
         if is_loading {
-            warnings.extend(self.images.upload(gpu, maker, &self.loaded, pixels));
+            warnings.extend(self.images.upload(gpu, maker, &self.loaded, budget));
         }
         if is_loading || self.materials.is_none() {
             self.materials = materials.bind(gpu, &self.loaded, &self.images);

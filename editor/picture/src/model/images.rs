@@ -31,19 +31,16 @@ impl ModelImages {
         !self.waiting.is_empty()
     }
 
-    /// Decodes and uploads the next image, and more as long as they have at most `pixels` pixels together. Returns a warning
-    /// for each that cannot be decoded.
+    /// Decodes and uploads the next images, as far as the budget goes. Returns a warning for each that cannot be decoded.
     pub(super) fn upload(
         &mut self,
         gpu: &Gpu,
         maker: &mut TextureMaker,
         loaded: &LoadedModel,
-        pixels: u64,
+        budget: &mut PixelBudget,
     ) -> Vec<String> {
         let mut warnings = Vec::new();
-        let mut left = pixels;
-        while let Some(image) = self.waiting.pop() {
-            left = left.saturating_sub(image.pixels());
+        while let Some(image) = self.waiting.pop_if(|next| budget.takes(next.pixels())) {
             match loaded.images.decode(&loaded.model.images, image.index, image.halvings) {
                 Ok(decoded) => {
                     for encoded in
@@ -54,9 +51,6 @@ impl ModelImages {
                     }
                 }
                 Err(warning) => warnings.push(warning),
-            }
-            if self.waiting.last().is_some_and(|next| next.pixels() > left) {
-                break;
             }
         }
         warnings
@@ -70,5 +64,26 @@ impl ModelImages {
     /// Returns the texture of materials without a texture; `None` only for a lost device.
     pub(super) fn white(&self) -> Option<&wgpu::TextureView> {
         self.white.as_ref()
+    }
+}
+
+/// The number of pixels that are decoded in one frame.
+pub(super) struct PixelBudget {
+    left: u64,
+    is_used: bool,
+}
+
+impl PixelBudget {
+    pub(super) fn new(pixels: u64) -> Self {
+        Self { left: pixels, is_used: false }
+    }
+
+    /// Takes the pixels of an image, if they are left; the first image always fits.
+    fn takes(&mut self, pixels: u64) -> bool {
+        let fits = !self.is_used || pixels <= self.left;
+        if fits {
+            (self.left, self.is_used) = (self.left.saturating_sub(pixels), true);
+        }
+        fits
     }
 }

@@ -19,6 +19,7 @@ use super::gpu::Gpu;
 use super::scene::Scene;
 use content::ModelContent;
 use dragonfly_document::LoadedModel;
+use images::PixelBudget;
 use material::GpuMaterials;
 use pipeline::{Cull, ModelPipelines, PipelineKind};
 use recorder::{DrawCounts, DrawRecorder};
@@ -53,7 +54,7 @@ struct ModelResources {
     ghosts: ghost::Ghosts,
 }
 
-/// Number of pixels that are decoded in one frame: a large image, or many small ones.
+/// Number of pixels that are decoded in one frame, of all models together: a large image, or many small ones.
 const PIXELS_PER_FRAME: u64 = 4 << 20;
 
 impl DeviceListener for GpuModel {
@@ -77,10 +78,10 @@ impl GpuModel {
         self.keep_shown(scene);
         let Some(resources) = &mut self.resources else { return };
         let mut warnings = Vec::new();
-        let pixels = if self.loads_at_once { u64::MAX } else { PIXELS_PER_FRAME };
+        let mut budget = PixelBudget::new(if self.loads_at_once { u64::MAX } else { PIXELS_PER_FRAME });
         resources.forget_others(&self.shown);
         for set in scene.draw_sets() {
-            resources.write(gpu, set, pixels, &mut warnings);
+            resources.write(gpu, set, &mut budget, &mut warnings);
         }
         // A model that is loaded again on another device has the same warnings.
         self.new_warnings
@@ -191,7 +192,7 @@ impl ModelResources {
     }
 
     /// Writes the poses of a model, which is loaded first unless it is known.
-    fn write(&mut self, gpu: &Gpu, set: &DrawSet, pixels: u64, warnings: &mut Vec<String>) {
+    fn write(&mut self, gpu: &Gpu, set: &DrawSet, budget: &mut PixelBudget, warnings: &mut Vec<String>) {
         let known = self.contents.iter().position(|content| Arc::ptr_eq(content.loaded(), set.loaded()));
         let at = known.unwrap_or_else(|| {
             for item in set.items() {
@@ -203,7 +204,7 @@ impl ModelResources {
             self.contents.len() - 1
         });
         let Self { pipelines, maker, materials, contents, .. } = self;
-        contents[at].upload(gpu, maker, materials, pixels, warnings);
+        contents[at].upload(gpu, maker, materials, budget, warnings);
         contents[at].write(gpu, pipelines, set);
         for batch in set.batches().solid().iter().chain(set.batches().blended()) {
             self.make_pipelines(gpu, &set.items()[batch.item], batch.mirrored);

@@ -21,6 +21,17 @@ impl Scene {
         found
     }
 
+    /// Returns the first of [`Self::pick_things`].
+    pub fn pick_thing(&mut self, position: [f32; 2]) -> Option<PickedThing> {
+        let (ray, pixel) = self.ray(position)?;
+        let is_surface = self.look.surface;
+        let first = self.cast_mut().filter(|_| is_surface).and_then(|cast| cast.pick_first(&ray));
+        match first {
+            None if self.look.helpers => self.helpers_near(pixel).into_iter().next(),
+            first => first,
+        }
+    }
+
     /// Returns the things of the scene of a script in a region of the viewport, given in points from its top left, in the order of the
     /// cast: those whose middle is inside. Things of which nothing is drawn count where helpers are drawn. None where a model is shown.
     pub fn things_in(&self, region: &Region<'_>) -> Vec<PickedThing> {

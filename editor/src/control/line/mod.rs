@@ -42,12 +42,14 @@ pub enum LineUse {
 pub enum LineAnswer {
     /// A line was drawn.
     Drawn(LineUse, DrawnStroke),
-    /// The pointer erased what is at these places, points from the top left of the viewport.
-    Erased(Vec<Vec2>),
+    /// The eraser was put down here, points from the top left of the viewport.
+    EraserDown(Vec2),
+    /// The eraser was moved to here.
+    EraserMoved(Vec2),
+    /// The eraser was lifted: what it touched is erased.
+    EraserUp,
     /// The press was above the horizon, where there is no ground.
     NoGround,
-    /// The tool was given up.
-    Left,
 }
 
 /// The state of the mouse.
@@ -68,7 +70,7 @@ enum LinePhase {
         next: DVec3,
         press: Option<Vec2>,
     },
-    Erase(Vec<Vec2>),
+    Erase,
 }
 
 /// The control that draws lines. It covers the viewport while it has a use.
@@ -122,13 +124,13 @@ impl LineControl {
 
     /// Returns whether what is under the pointer is erased.
     pub fn is_erasing(&self) -> bool {
-        matches!(self.phase, LinePhase::Erase(_))
+        self.phase == LinePhase::Erase
     }
 
     /// Adds the line as it is drawn so far to `out`, scene space.
     pub fn add_draft(&self, out: &mut Vec<DVec3>) {
         match &self.phase {
-            LinePhase::Idle | LinePhase::Pressed { .. } | LinePhase::Erase(_) => {}
+            LinePhase::Idle | LinePhase::Pressed { .. } | LinePhase::Erase => {}
             LinePhase::Freehand(points) => out.extend(points),
             LinePhase::Straight(ends) => out.extend(ends),
             LinePhase::Corners { corners, next, .. } => {
@@ -141,7 +143,7 @@ impl LineControl {
     /// Returns length and direction of what is drawn; `None` while nothing is.
     pub fn measure(&self) -> Option<StrokeMeasure> {
         match &self.phase {
-            LinePhase::Idle | LinePhase::Pressed { .. } | LinePhase::Erase(_) => None,
+            LinePhase::Idle | LinePhase::Pressed { .. } | LinePhase::Erase => None,
             LinePhase::Freehand(points) => Some(StrokeMeasure::of_length(points)),
             LinePhase::Straight([from, to]) => Some(StrokeMeasure::straight(*from, *to, &self.plane()?)),
             LinePhase::Corners { corners, next, .. } => {
@@ -174,7 +176,7 @@ impl LineControl {
             return;
         }
         if modifiers.ctrl && self.use_of == Some(LineUse::Note) {
-            self.phase = LinePhase::Erase(vec![at]);
+            (self.phase, self.answer) = (LinePhase::Erase, Some(LineAnswer::EraserDown(at)));
             return;
         }
         match self.place_at(at) {
@@ -187,11 +189,7 @@ impl LineControl {
         let place = self.place_at(at);
         match &mut self.phase {
             LinePhase::Idle => {}
-            LinePhase::Erase(places) => {
-                if places.len() < MOST_POINTS {
-                    places.push(at);
-                }
-            }
+            LinePhase::Erase => self.answer = Some(LineAnswer::EraserMoved(at)),
             LinePhase::Pressed { at: from, place: start } => {
                 let Some(place) = place.filter(|_| from.distance(at) > THRESHOLD) else { return };
                 self.phase = match modifiers.shift {
@@ -224,7 +222,7 @@ impl LineControl {
                 }
                 self.phase = LinePhase::Corners { corners, next, press: None };
             }
-            LinePhase::Erase(places) => self.answer = Some(LineAnswer::Erased(places)),
+            LinePhase::Erase => self.answer = Some(LineAnswer::EraserUp),
         }
         InputFlow::Stop
     }
@@ -236,7 +234,6 @@ impl LineControl {
         }
         if std::mem::take(&mut self.phase) == LinePhase::Idle {
             self.use_of = None;
-            self.answer = Some(LineAnswer::Left);
         }
         InputFlow::Stop
     }

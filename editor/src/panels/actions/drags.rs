@@ -62,6 +62,7 @@ pub(in crate::panels) fn let_through(
 fn pass_change(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)) {
     match workspace.dragging.admit(&change) {
         Admission::Drop => {
+            workspace.scene.dropped(&change);
             if let Change::Edit(_, Some(gesture)) = change {
                 workspace.keys.forget_drag(gesture);
             }
@@ -137,16 +138,18 @@ fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)
 
 /// Cancels the drag in progress, whichever panel or tool it belongs to, as if it had never begun.
 fn cancel_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
-    // Typed text is kept.
-    if workspace.scene.is_typing(workspace.dragging.open()) {
+    if workspace.read().keeps_gesture() {
+        workspace.stage.end_camera();
         if let Some(gesture) = workspace.dragging.release() {
             send(workspace, Change::Release(gesture), pass);
         }
         return;
     }
-    if workspace.tools.controls().edits() {
+    if workspace.tools.controls().edits() || workspace.stage.camera_drag().is_some() {
         workspace.tools.drop_drag();
     }
+    workspace.stage.end_camera();
+    workspace.stage.end_drag();
     workspace.keys.drop_held();
     if let Some(gesture) = workspace.dragging.cancel() {
         workspace.dragging.take_offset(gesture);
@@ -156,10 +159,17 @@ fn cancel_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
 
 /// Ends a drag whose end was not reported: no button is held any more.
 fn release_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
-    if !workspace.tools.controls().is_busy()
+    let now = workspace.player.now();
+    let is_turning = workspace.stage.is_turning(workspace.dragging.open())
+        && workspace.stage.turn_left(now).is_some_and(|left| !left.is_zero());
+    if !is_turning
+        && !workspace.tools.controls().is_busy()
         && workspace.keys.buttonless().is_none()
         && let Some(gesture) = workspace.dragging.release()
     {
+        if workspace.stage.camera_drag() == Some(gesture) {
+            workspace.stage.end_camera();
+        }
         send_held_offset(workspace, gesture, pass);
         send(workspace, Change::Release(gesture), pass);
     }

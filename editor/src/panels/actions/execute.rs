@@ -3,7 +3,8 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 use super::{
-    bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scene, scope, sets, takes,
+    bones, clipboard, drags, dropped, files, framing, keys, layers, locks, look, playback, scene, scope,
+    sets, takes,
 };
 use crate::panels::commands;
 use crate::panels::file_choice::FileChoice;
@@ -39,7 +40,8 @@ pub(in crate::panels) fn execute(workspace: &mut Workspace, request: Request) ->
     locks::unlocked(workspace, effect?)
 }
 
-fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
+/// Executes a request without what follows every one.
+pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
     match request {
         Request::Command(id) => return run(workspace, commands::get(id)),
         Request::Select(bone) => {
@@ -112,9 +114,9 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Choose(choice, from) => return Some(Effect::Choose(choice, from)),
         Request::Sets(action) => sets::perform(workspace, &action),
         Request::Scene(request) => return scene::perform(workspace, request),
-        Request::AddRole(path) => return scene::add_model(workspace, &path, NewThing::Role),
-        Request::DropRole(path) => return scene::drop_role(workspace, &path),
-        Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),
+        Request::Dropped(files) => return dropped::dropped(workspace, files),
+        Request::AddRoles(paths) => return scene::add_models(workspace, &paths, NewThing::Role),
+        Request::AddProp(path) => return scene::add_models(workspace, &[path], NewThing::Prop),
         Request::NewScene(path) => return Some(Effect::NewScene(path)),
         Request::DemoScene(folder) => return Some(Effect::DemoScene(folder)),
     }

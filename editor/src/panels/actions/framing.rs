@@ -96,9 +96,11 @@ pub(in crate::panels) fn wheel(workspace: &mut Workspace, by: f32) -> Option<Eff
 /// Moves the camera of the viewport, or the one of the scene that is attached to it.
 pub(super) fn move_camera(workspace: &mut Workspace, camera: Camera) -> Option<Effect> {
     workspace.camera.set_camera(camera);
-    let mut effects = Vec::new();
-    scene_camera::follow_view(workspace, &mut effects);
-    effects.into_iter().next()
+    let mut changes = scene_camera::follow_view(workspace);
+    match changes.len() {
+        0 | 1 => changes.pop().map(Effect::Change),
+        _ => Some(Effect::Changes(changes)),
+    }
 }
 
 /// Sets the rectangle of the viewport.

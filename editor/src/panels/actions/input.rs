@@ -43,7 +43,7 @@ pub(in crate::panels) fn input(
 /// Carries out what the tools ask for.
 fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     workspace.camera.set_camera(workspace.tools.camera());
-    scene_camera::follow_view(workspace, effects);
+    effects.extend(scene_camera::follow_view(workspace).into_iter().map(Effect::Change));
     let corner = workspace.camera.viewport().min;
     let outcome = workspace.tools.controls_mut().picture_mut().take_outcome();
     match outcome {

@@ -55,11 +55,9 @@ pub(in crate::panels) fn follow_take(workspace: &mut Workspace, before: Option<&
 /// gone.
 pub(in crate::panels) fn keep_take(workspace: &mut Workspace) {
     let panels = workspace.read();
-    let bounds = panels
-        .take()
-        .map(drop)
-        .or(panels.scene_bounds().map(drop))
-        .map(|()| if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() });
+    let is_there = panels.take().is_some() || panels.scene_bounds().is_some();
+    let bounds = || if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() };
+    let bounds = is_there.then(bounds);
     workspace.player.keep(bounds);
 }
 
@@ -95,7 +93,7 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
 /// Pauses playback at the time shown, if it is running; with snapping on at the nearest whole frame.
 pub(in crate::panels) fn pause(workspace: &mut Workspace) {
     if workspace.player.is_playing() {
-        let (time, rate) = (workspace.player.time(), workspace.frame_rate.get());
+        let (time, rate) = (workspace.player.time(), workspace.read().frames_per_second());
         // New keys are added at the time where playback stops, and with snapping on keys are at whole frames.
         let frame = ruler::time_of(ruler::frame_of(time, rate), rate);
         stop_at(workspace, if workspace.keys.snap() { frame } else { time });
@@ -141,7 +139,8 @@ pub(in crate::panels) fn skip(workspace: &mut Workspace, seconds: f32) {
 
 /// Moves the playhead to the next or previous frame and pauses.
 pub(in crate::panels) fn step_frame(workspace: &mut Workspace, direction: i64) {
-    let time = ruler::step_frame(workspace.player.time(), direction, workspace.frame_rate.get());
+    let rate = workspace.read().frames_per_second();
+    let time = ruler::step_frame(workspace.player.time(), direction, rate);
     stop_at(workspace, time);
 }
 

@@ -1,4 +1,4 @@
-//! The state that is kept when the open file is read again: the take by its name, the playhead, the selected bones by their names, and the camera.
+//! The state that is kept when the file of the open model is read again: the take by its name, the playhead, the selected bones by their names, and the camera.
 
 use super::playback;
 use crate::panels::workspace::Workspace;
@@ -21,9 +21,9 @@ pub(super) struct BeforeReload {
 }
 
 impl BeforeReload {
-    /// Notes the state before `view` is shown; `None` where it is of another file than the one that is open.
+    /// Notes the state before `view` is shown; `None` where it is of another file than the one that is open, and for a scene.
     pub(super) fn of(workspace: &Workspace, view: &View) -> Option<Self> {
-        let before = workspace.model.view()?;
+        let before = workspace.model.view().filter(|before| before.scene.is_none())?;
         let is_same = before.file.path.is_some() && before.file.path == view.file.path;
         if !is_same {
             return None;

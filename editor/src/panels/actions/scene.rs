@@ -1,6 +1,6 @@
 //! Scenes: selection, the newest text, things of the cast.
 
-use super::scene_text::{add, change_text};
+use super::scene_text::{add_all, change_text};
 use super::{playback, scene_camera, scene_ground, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
@@ -10,7 +10,8 @@ use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::line::points_text;
 use dragonfly_document::DocumentMessage;
 use dragonfly_document::bones::Choice;
-use std::path::{Component, Path};
+use glam::DVec3;
+use std::path::{Component, Path, PathBuf};
 
 /// Commands for models and the ones with the same meaning, and the same keys, while a scene is open.
 const COUNTERPARTS: &[(Id, Id)] = &[
@@ -55,46 +56,48 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Hide(things, hide) => workspace.scene.hide(things, hide),
         SceneRequest::Lock(things, lock) => workspace.scene.lock(things, lock),
         SceneRequest::Rename(thing) => workspace.scene.rename(thing),
-        SceneRequest::Ripple(ripple) => workspace.scene.set_ripple(ripple),
         SceneRequest::Window(window) => workspace.scene.set_window(window),
         SceneRequest::Refused(reason) => workspace.say(MessageSeverity::Info, reason),
         SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
         SceneRequest::Through(through) => scene_camera::look_through(workspace, through),
         SceneRequest::EditModel(thing) => return edit_model(workspace, &thing),
-        SceneRequest::ShowScene => return show_scene(workspace),
     }
     None
 }
 
-/// Adds a model file to the cast. It has to be below the folder of the script.
-pub(super) fn add_model(
+/// Adds model files to the cast in one step. Those that are not below the folder of the script are left out.
+pub(super) fn add_models(
     workspace: &mut Workspace,
-    path: &Path,
-    thing: impl FnOnce(String) -> NewThing,
+    paths: &[PathBuf],
+    mut thing: impl FnMut(String) -> NewThing,
 ) -> Option<Effect> {
     let folder = workspace.read().model_folder()?;
-    match relative(&folder, path) {
-        Some(model) => add(workspace, &thing(model)),
-        None => {
-            let text = format!(
-                "{} is not in the folder of the scene: copy it to {} or below first",
-                path.file_name().unwrap_or_default().display(),
-                folder.display()
-            );
-            workspace.say(MessageSeverity::Warning, text);
-            None
+    let mut things = Vec::new();
+    for path in paths {
+        if let Some(model) = relative(&folder, path) {
+            things.push(thing(model));
+            continue;
         }
+        let text = format!(
+            "{} is not in the folder of the scene: copy it to {} or below first",
+            path.file_name().unwrap_or_default().display(),
+            folder.display()
+        );
+        workspace.say(MessageSeverity::Warning, text);
     }
+    add_all(workspace, &things)
 }
 
-/// Adds a model file that was dropped to the cast, as a role under the pointer.
-pub(super) fn drop_role(workspace: &mut Workspace, path: &Path) -> Option<Effect> {
+/// Adds model files that were dropped to the cast as roles in one step: the first one under the pointer, each other one a meter beside the one before.
+pub(super) fn drop_roles(workspace: &mut Workspace, paths: &[PathBuf]) -> Option<Effect> {
     // To a centimeter, which is easy to read.
-    let place = scene_ground::pointed(workspace).map(|place| (place * 100.0).round() / 100.0 + 0.0);
-    match place.and_then(|place| points_text(&[place])) {
-        Some(place) => add_model(workspace, path, |model| NewThing::RoleAt(model, place)),
-        None => add_model(workspace, path, NewThing::Role),
-    }
+    let first = scene_ground::pointed(workspace).map(|place| (place * 100.0).round() / 100.0 + 0.0);
+    let mut places =
+        first.into_iter().flat_map(|first| (0..).map(move |beside| first + f64::from(beside) * DVec3::X));
+    add_models(workspace, paths, |model| match places.next().and_then(|place| points_text(&[place])) {
+        Some(place) => NewThing::RoleAt(model, place),
+        None => NewThing::Role(model),
+    })
 }
 
 /// Returns a path relative to a folder that contains it, with `/`.
@@ -133,7 +136,7 @@ pub(in crate::panels) fn fit(workspace: &mut Workspace) {
 pub(in crate::panels) fn edit_model(workspace: &mut Workspace, thing: &str) -> Option<Effect> {
     let view = workspace.model.view()?;
     let script = view.scene.as_ref()?.script.as_ref()?;
-    let element = script.things().find(|element| element.value("id") == Some(thing))?;
+    let element = &script.tree().elements()[script.thing_element(thing)?];
     let Some(model) = element.value("model").map(str::to_owned) else {
         let text = format!("A {} has no model with takes and bones", element.row.name);
         workspace.say(MessageSeverity::Info, text);

@@ -1,21 +1,24 @@
 //! Looking through the cameras of a scene, and moving them by orbiting.
 
-use super::scene_gizmo::{look_text, place_text};
-use crate::panels::request::Effect;
+use super::scene_gizmo::{BaseMoment, spliced};
+use super::scene_text::text_change;
 use crate::panels::scene::{SceneBase, ScriptChange};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::bounds::Sphere;
 use dragonfly_anim::stage::StageCamera;
 use dragonfly_anim::stage::gesture::GestureRefusal;
+use dragonfly_anim::stage::table::vector;
 use dragonfly_document::Change;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::{ThroughCamera, viewport_camera};
 use glam::Vec3;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Looks through a camera of the scene, or through the free one. Refused where the cast has no camera.
 pub(in crate::panels) fn look_through(workspace: &mut Workspace, through: ThroughCamera) {
+    workspace.stage.end_camera();
     workspace.camera.set_through(through);
     update(workspace);
     let is_free = *workspace.camera.through() == ThroughCamera::Free;
@@ -55,6 +58,13 @@ pub(in crate::panels) fn toggle_attached(workspace: &mut Workspace) {
 
 /// Computes what the camera sees through which the viewport looks. During a drag of that camera it is where the pointer put it.
 pub(super) fn update(workspace: &mut Workspace) {
+    let turning = workspace.stage.turn_left(workspace.player.now());
+    if turning.is_some_and(|left| left.is_zero())
+        && workspace.stage.camera_drag() != workspace.dragging.open()
+    {
+        // Nothing was written that has to be released.
+        workspace.stage.end_camera();
+    }
     if workspace.stage.camera_drag().is_some() {
         return;
     }
@@ -84,47 +94,55 @@ fn seen(workspace: &mut Workspace) -> Option<(StageCamera, f32)> {
     Some((camera?, width.max(1) as f32 / height.max(1) as f32))
 }
 
-/// Moves the camera of the scene after the view that the user gave it, and ends the step when the mouse is released.
-pub(super) fn follow_view(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
+/// Moves the camera of the scene after the view that the user gave it, and ends the step when the mouse is released. The movements of a wheel, and
+/// of a panel, are one step until there is a pause.
+pub(super) fn follow_view(workspace: &mut Workspace) -> Vec<Change> {
+    let mut changes = Vec::new();
     let is_dragged = workspace.tools.controls().picture().moves_camera();
     if let Some(moved) = workspace.camera.take_moved() {
-        if is_dragged && workspace.stage.camera_drag().is_none() {
-            workspace.stage.set_camera_drag(Some(workspace.dragging.new_gesture()));
-        }
-        match moved_text(workspace, &moved) {
-            Ok(change) => effects.extend(super::scene_text::change_text(workspace, &change)),
+        let turned = (!is_dragged).then(|| workspace.player.now());
+        match moved_camera(workspace, &moved, turned) {
+            Ok(change) => changes.extend(change.and_then(|change| text_change(workspace, &change))),
             Err(refusal) => {
-                workspace.stage.set_camera_drag(None);
+                workspace.stage.end_camera();
                 workspace.camera.attach(false);
                 workspace.say(MessageSeverity::Warning, refusal.to_string());
                 update(workspace);
             }
         }
     }
-    if !is_dragged && let Some(gesture) = workspace.stage.camera_drag() {
-        workspace.stage.set_camera_drag(None);
-        workspace.stage.set_base(None);
-        effects.push(Effect::Change(Change::Release(gesture)));
+    if let Some(gesture) = workspace.stage.camera_drag()
+        && !is_dragged
+        && !workspace.stage.is_turning(Some(gesture))
+    {
+        workspace.stage.end_camera();
+        changes.push(Change::Release(gesture));
     }
+    changes
 }
 
-/// Returns the text in which the camera of the scene sees what `moved` does.
-fn moved_text(workspace: &mut Workspace, moved: &Camera) -> Result<ScriptChange, GestureRefusal> {
+/// Returns the change after which the camera of the scene sees what `moved` does; `None` where that is written already, and while the document
+/// has not answered an earlier change.
+fn moved_camera(
+    workspace: &mut Workspace,
+    moved: &Camera,
+    turned: Option<Instant>,
+) -> Result<Option<ScriptChange>, GestureRefusal> {
     let refused = |reason: &str| GestureRefusal(reason.to_owned());
     let scene = workspace.read().scene().cloned().ok_or_else(|| refused("No scene is open"))?;
     let gesture = workspace.stage.camera_drag();
     let base = match workspace.stage.base().filter(|_| gesture.is_some()) {
         Some(base) => base.clone(),
+        None if SceneBase::is_awaited(&scene, workspace.scene.text(&scene)) => return Ok(None),
         None => SceneBase::of(&scene, workspace.scene.text(&scene))?,
     };
-    if gesture.is_some() {
-        workspace.stage.set_base(Some(base.clone()));
-    }
+    let gesture = gesture.unwrap_or_else(|| workspace.dragging.new_gesture());
+    workspace.stage.move_camera(gesture, base.clone(), turned);
     let time = workspace.read().scene_time();
-    let now = workspace.stage.things_at(&base.plan, time);
+    let moment = BaseMoment { base: &base, things: workspace.stage.base_things(&base.plan, time), time };
     let thing = match workspace.camera.through() {
         ThroughCamera::Free => None,
-        ThroughCamera::Shot => now.camera.map(|camera| camera.thing),
+        ThroughCamera::Shot => moment.things.camera.map(|camera| camera.thing),
         ThroughCamera::Of(id) => base.plan.thing_called(id),
     };
     let thing = thing.ok_or_else(|| refused("The scene has no such camera"))?;
@@ -132,21 +150,15 @@ fn moved_text(workspace: &mut Workspace, moved: &Camera) -> Result<ScriptChange,
     if workspace.scene.is_locked(id) {
         return Err(GestureRefusal(format!("{id} is locked")));
     }
-    let eye = moved.eye();
-    let text = place_text(&base, &base.script, thing, time, eye)?;
-    let ahead = -moved.back() * distance_of_look(&base, id, now.things[thing].transform.translation);
-    let text = look_text(&text, id, eye + ahead)?;
-    Ok(ScriptChange { from: Arc::clone(base.text()), text, label: "Move camera", gesture })
+    let (eye, before) = (moved.eye(), moment.things.things[thing].transform.translation);
+    let look = eye - moved.back() * distance_of_look(&base, id, before);
+    let parts = vec![moment.placed(thing, eye, None)?, moment.looking(id, look)?];
+    spliced(workspace, &base, parts, "Move camera", gesture)
 }
 
 /// Returns the distance from a camera to the point that it looks at, meters; 3 where the script names a thing instead of a point.
 pub(super) fn distance_of_look(base: &SceneBase, id: &str, position: Vec3) -> f32 {
-    let element = base.script.things().find(|element| element.value("id") == Some(id));
-    let look = element.and_then(|element| element.value("look"));
-    let numbers: Option<Vec<f32>> =
-        look.map(|look| look.split_whitespace().map_while(|number| number.parse().ok()).collect());
-    match numbers.as_deref() {
-        Some(&[x, y, z]) => Vec3::new(x, y, z).distance(position).max(0.1),
-        _ => 3.0,
-    }
+    let element = base.script.thing_element(id).map(|element| &base.script.tree().elements()[element]);
+    let point = element.and_then(|element| element.value("look")).and_then(vector);
+    point.map_or(3.0, |point| point.as_vec3().distance(position).max(0.1))
 }

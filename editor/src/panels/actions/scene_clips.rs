@@ -11,7 +11,7 @@ use dragonfly_anim::stage::gesture::{
     Followers, GestureRefusal, SequenceOrder, cut_to, delete_clip, duplicate_clip, move_clip, trim_end,
     trim_start,
 };
-use dragonfly_anim::stage::script::{ScriptTree, StageScript};
+use dragonfly_anim::stage::script::ScriptTree;
 use dragonfly_anim::stage::splice::{
     AttachedComments, TextSplices, delete as delete_element, duplicate as duplicate_element, is_used,
 };
@@ -49,7 +49,7 @@ pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option
     gesture(workspace, "Move clip", |base| {
         let rate = base.script.rate();
         let begin = base.plan.schedule().times().get(action).map(|times| times.begin).unwrap_or_default();
-        let frame = (begin.seconds() * rate.per_second()).round() as i64;
+        let frame = rate.nearest_frame(begin);
         let at_frame = rate.frame(frame) == begin;
         // An action between two frames goes to one of them first.
         let to = if at_frame { rate.frame(frame + frames) } else { rate.frame(frame) };
@@ -113,9 +113,6 @@ fn each_thing(
     change: impl Fn(&ScriptTree, usize) -> Result<Option<TextSplices>, GestureRefusal>,
 ) -> Result<String, GestureRefusal> {
     let mut tree = base.script.tree().clone();
-    let refused = |errors: &[dragonfly_anim::stage::script::ScriptError]| {
-        GestureRefusal(errors.first().map_or(String::new(), |error| error.text()))
-    };
     for thing in things {
         let found = tree.elements().iter().position(|element| {
             element.row.group == ElementGroup::Thing && element.value("id") == Some(thing)
@@ -123,11 +120,11 @@ fn each_thing(
         let Some(element) = found else { continue };
         if let Some(splices) = change(&tree, element)? {
             let text = splices.apply(tree.text());
-            tree = ScriptTree::read(text).map_err(|errors| refused(&errors))?;
+            tree = ScriptTree::read(text)?;
         }
     }
-    StageScript::read(tree.text().clone()).map_err(|errors| refused(&errors))?;
-    Ok(tree.text().to_string())
+    let script = base.script.with_tree(tree)?;
+    Ok(script.tree().text().to_string())
 }
 
 /// Inserts a shot of the camera after the one that is seen at the playhead.

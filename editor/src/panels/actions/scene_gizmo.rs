@@ -8,11 +8,12 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
-use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene, face_thing, place_thing};
-use dragonfly_anim::stage::script::StageScript;
-use dragonfly_anim::stage::splice::set_attribute;
+use dragonfly_anim::stage::StageScene;
+use dragonfly_anim::stage::gesture::{GestureRefusal, face_splices, place_splices, spliced_text};
+use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
+use dragonfly_document::history::Gesture;
 use dragonfly_picture::gizmo::{PosedSkeleton, Tool};
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
@@ -29,10 +30,18 @@ pub(super) fn sync(workspace: &mut Workspace, placement: PlacedGizmo) {
     bones.clear();
     let selected = workspace.scene.things().iter().filter(|id| !workspace.scene.is_hidden(id));
     let things = selected.filter_map(|id| plan.thing_called(id));
-    bones.extend(things.filter(|&thing| plan.things()[thing].path.is_none()).map(|thing| thing as BoneIndex));
+    if placement.tool.is_some() {
+        bones.extend(
+            things.filter(|&thing| plan.things()[thing].path.is_none()).map(|thing| thing as BoneIndex),
+        );
+    }
     let active = bones.last().copied();
     let refused = refusal(workspace, &scene).is_some();
+    let is_idle = bones.is_empty() || placement.tool.is_none();
     let placement = PlacedGizmo { take: None, bones, active, refused, ..placement };
+    if is_idle {
+        return put_away(workspace, placement);
+    }
     if !workspace.tools.is_placed_elsewhere(&placement) {
         return workspace.tools.reuse(placement);
     }
@@ -43,6 +52,18 @@ pub(super) fn sync(workspace: &mut Workspace, placement: PlacedGizmo) {
     let skeleton = Skeleton { bones: places.iter().map(bone).collect() };
     let pose = PosedSkeleton { skeleton: &skeleton, poses: &places, to_root: &to_root };
     workspace.tools.place_gizmo(pose, placement, !refused);
+}
+
+/// Shows no gizmo. It is the same at each time, so that nothing is computed while a scene plays.
+fn put_away(workspace: &mut Workspace, placement: PlacedGizmo) {
+    let placement = PlacedGizmo { generation: 0, time: 0.0, ..placement };
+    if !workspace.tools.is_placed_elsewhere(&placement) {
+        return workspace.tools.reuse(placement);
+    }
+    let skeleton = Skeleton { bones: Vec::new() };
+    let pose = PosedSkeleton { skeleton: &skeleton, poses: &[], to_root: &[] };
+    let placement = PlacedGizmo { bones: Vec::new(), active: None, ..placement };
+    workspace.tools.place_gizmo(pose, placement, false);
 }
 
 /// Returns why the selected things cannot be moved; `None` if they can.
@@ -68,183 +89,197 @@ pub(super) fn send(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     if is_idle && workspace.tools.drag().gesture().is_none() {
         return;
     }
-    match text(workspace) {
-        Ok(change) => {
+    match change(workspace) {
+        Ok(Some(change)) => {
             if let Some(gesture) = change.gesture {
                 workspace.tools.drag_mut().begin(gesture);
             }
             effects.extend(super::scene_text::change_text(workspace, &change));
         }
+        Ok(None) => {}
         Err(refusal) => workspace.say(MessageSeverity::Warning, refusal.to_string()),
     }
 }
 
 /// Ends the drag.
 pub(super) fn end(workspace: &mut Workspace) {
-    workspace.stage.set_base(None);
-    workspace.stage.set_line_base(None);
-    workspace.stage.set_heights(None);
+    workspace.stage.end_drag();
 }
 
-fn text(workspace: &mut Workspace) -> Result<ScriptChange, GestureRefusal> {
+/// Returns the change that the drag makes now; `None` where it is the same as before.
+fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefusal> {
     let scene = workspace.read().scene().cloned();
     let scene = scene.ok_or_else(|| GestureRefusal("No scene is open".to_owned()))?;
     let base = match workspace.stage.base() {
         Some(base) => base.clone(),
-        None => SceneBase::of(&scene, workspace.scene.text(&scene))?,
+        None => {
+            let base = SceneBase::of(&scene, workspace.scene.text(&scene))?;
+            workspace.stage.set_base(Some(base.clone()));
+            base
+        }
     };
-    workspace.stage.set_base(Some(base.clone()));
     let gesture = workspace.tools.drag().gesture().unwrap_or_else(|| workspace.dragging.new_gesture());
     let time = workspace.read().scene_time();
+    let heights = kept_heights(workspace, &scene, time);
+    let moment = BaseMoment { base: &base, things: workspace.stage.base_things(&base.plan, time), time };
     let gizmo = &workspace.tools.controls().gizmo().gizmo;
-    let tool = gizmo.tool;
-    let moved: Vec<(usize, Transform, Transform)> = gizmo
-        .drag()
-        .bones
-        .iter()
-        .zip(gizmo.before())
-        .map(|(drag, before)| (drag.bone as usize, drag.to_parent, before.to_parent))
-        .collect();
-    let keeps_ground = tool == Tool::Move && workspace.settings.tools.ground;
-    if keeps_ground && workspace.stage.heights().is_none() {
-        workspace.stage.set_heights(Some(heights_on_ground(&scene, time.seconds())));
+    let mut parts = Vec::new();
+    for (drag, before) in gizmo.drag().bones.iter().zip(gizmo.before()) {
+        let (thing, mut now) = (drag.bone as usize, drag.to_parent);
+        let height = heights.as_ref().and_then(|heights| heights.get(thing).copied().flatten());
+        now.translation.y = height.unwrap_or(now.translation.y);
+        moment.moved(thing, gizmo.tool, [now, before.to_parent], &mut parts)?;
     }
-    let mut script = Arc::clone(&base.script);
-    for (thing, mut now, before) in moved {
-        let height = workspace.stage.heights().filter(|_| keeps_ground);
-        if let Some(height) = height.and_then(|heights| heights.get(thing).copied().flatten()) {
-            now.translation.y = height;
-        }
-        let text = thing_text(&base, &script, (thing, time), tool, [now, before])?;
-        if *text != **script.tree().text() {
-            script = Arc::new(read(text)?);
-        }
-    }
-    let label = match tool {
+    let label = match gizmo.tool {
         Tool::Move => "Move thing",
         Tool::Rotate => "Turn thing",
         Tool::Scale => "Scale thing",
     };
-    let text = script.tree().text().to_string();
-    Ok(ScriptChange { from: Arc::clone(base.text()), text, label, gesture: Some(gesture) })
+    spliced(workspace, &base, parts, label, gesture)
 }
 
-/// Returns the text in which a thing is where the gizmo put it: now, and before.
-fn thing_text(
-    base: &SceneBase,
-    script: &StageScript,
-    (thing, time): (usize, StageTime),
-    tool: Tool,
-    [now, before]: [Transform; 2],
-) -> Result<String, GestureRefusal> {
-    let planned = base.plan.things().get(thing);
-    let planned = planned.ok_or_else(|| GestureRefusal("The thing is gone".to_owned()))?;
-    let mut text = script.tree().text().to_string();
-    if tool == Tool::Move || now.translation != before.translation {
-        text = place_text(base, script, thing, time, now.translation)?;
+/// Returns the heights at which things stay while they are moved on the ground; `None` while they may leave it.
+fn kept_heights(workspace: &mut Workspace, scene: &SceneView, time: StageTime) -> Option<Arc<[Option<f32>]>> {
+    let is_move = workspace.tools.controls().gizmo().gizmo.tool == Tool::Move;
+    if !is_move || !workspace.settings.tools.ground {
+        return None;
     }
-    let turned = read_if_new(script, text)?;
-    let script = turned.as_ref().unwrap_or(script);
-    match tool {
-        Tool::Move => Ok(script.tree().text().to_string()),
-        Tool::Rotate if planned.kind == "camera" => {
-            let ahead = now.rotation * before.rotation.inverse() * direction_of_camera(base, thing, time);
-            let look = now.translation + ahead * distance_of_look(base, &planned.id, before.translation);
-            look_text(script.tree().text(), &planned.id, look)
-        }
-        Tool::Rotate => {
-            let scene = GestureScene { script, plan: &base.plan };
-            face_thing(&scene, &planned.id, time, facing(now.rotation))
-        }
-        Tool::Scale => scale_text(script, &planned.id, now.scale / before.scale),
+    if workspace.stage.heights().is_none() {
+        workspace.stage.set_heights(heights_on_ground(scene, time.seconds()));
     }
+    workspace.stage.heights().cloned()
 }
 
-/// Returns the text in which a thing is at `position`. Refused where something carries it, and where it follows a path.
-pub(super) fn place_text(
-    base: &SceneBase,
-    script: &StageScript,
-    thing: usize,
-    time: StageTime,
-    position: Vec3,
-) -> Result<String, GestureRefusal> {
-    let id = &base.plan.things()[thing].id;
-    let mut state = base.plan.new_scene();
-    base.plan.scene_at(time, &mut state);
-    let own = base.plan.placement(thing, time).unwrap_or_default().position.as_vec3();
-    if state.things[thing].transform.translation.distance(own) > CARRIED {
-        return Err(GestureRefusal(format!("Something holds {id} at this time: move what holds it")));
-    }
-    let follows = (1..base.script.actions().len()).find(|&action| {
-        let element = base.script.element(action);
-        element.row.name == "move"
-            && element.value("who") == Some(id)
-            && element.value("path").is_some()
-            && base.plan.schedule().times().get(action).is_some_and(|times| times.begin <= time)
-    });
-    if let Some(path) = follows.and_then(|action| base.script.element(action).value("path")) {
-        return Err(GestureRefusal(format!("{id} follows the path {path} at this time: move the path")));
-    }
-    let scene = GestureScene { script, plan: &base.plan };
-    place_thing(&scene, id, time, rounded(position))
-}
-
-/// Returns a text in which a camera of the cast looks at a point.
-pub(super) fn look_text(text: &str, id: &str, look: Vec3) -> Result<String, GestureRefusal> {
-    let script = read(text.to_owned())?;
-    let value = rounded(look).to_array().map(|number| number.to_string()).join(" ");
-    set(&script, id, "look", &value)
-}
-
-/// Returns the text in which a role or a prop has another size.
-fn scale_text(script: &StageScript, id: &str, by: Vec3) -> Result<String, GestureRefusal> {
-    let element = script.things().find(|element| element.value("id") == Some(id));
-    let has_scale = element.is_some_and(|element| element.row.attribute("scale").is_some());
-    if !has_scale {
-        return Err(GestureRefusal(format!("{id} has no size of its own")));
-    }
-    // The axis that changed most.
-    let by =
-        by.to_array().into_iter().max_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs())).unwrap_or(1.0);
-    let written =
-        element.and_then(|element| element.value("scale")).and_then(|scale| scale.parse::<f64>().ok());
-    let scale = (written.unwrap_or(1.0) * f64::from(by) * 1e5).round() / 1e5;
-    if !(scale.is_finite() && scale > 0.0) {
-        return Err(GestureRefusal("The size has to be greater than zero".to_owned()));
-    }
-    set(script, id, "scale", &scale.to_string())
-}
-
-fn set(script: &StageScript, id: &str, attribute: &str, value: &str) -> Result<String, GestureRefusal> {
-    let tree = script.tree();
-    let is_own = |element: &&dragonfly_anim::stage::script::ScriptElement| element.value("id") == Some(id);
-    let element = script.things().find(is_own).map(|own| own.range.start);
-    let element = tree.elements().iter().position(|own| Some(own.range.start) == element);
-    let splices = element.and_then(|element| set_attribute(tree, element, attribute, value));
-    let splices =
-        splices.ok_or_else(|| GestureRefusal(format!("{attribute} of {id} cannot be written here")))?;
-    Ok(splices.apply(tree.text()))
-}
-
-/// Reads a script.
+/// Returns the replacements together.
 ///
 /// # Errors
 ///
-/// Its first error.
-pub(super) fn read(text: String) -> Result<StageScript, GestureRefusal> {
-    StageScript::read(text)
-        .map_err(|errors| GestureRefusal(errors.first().map_or(String::new(), |error| error.text())))
+/// Two of them are at the same place.
+pub(super) fn joined(parts: Vec<TextSplices>) -> Result<TextSplices, GestureRefusal> {
+    TextSplices::joined(parts).ok_or_else(|| GestureRefusal("This cannot be written here".to_owned()))
 }
 
-fn read_if_new(script: &StageScript, text: String) -> Result<Option<StageScript>, GestureRefusal> {
-    if *text == **script.tree().text() { Ok(None) } else { read(text).map(Some) }
+/// Returns the change of the base by all of these replacements; `None` where they are the same as before.
+pub(super) fn spliced(
+    workspace: &mut Workspace,
+    base: &SceneBase,
+    parts: Vec<TextSplices>,
+    label: &'static str,
+    gesture: Gesture,
+) -> Result<Option<ScriptChange>, GestureRefusal> {
+    let splices = joined(parts)?;
+    if !workspace.stage.is_new(&splices) {
+        return Ok(None);
+    }
+    let text = spliced_text(&base.script, splices)?;
+    Ok(Some(ScriptChange { from: Arc::clone(base.text()), text, label, gesture: Some(gesture) }))
 }
 
-/// Returns the direction in which a camera looks.
-fn direction_of_camera(base: &SceneBase, thing: usize, time: StageTime) -> Vec3 {
-    let mut state = base.plan.new_scene();
-    base.plan.scene_at(time, &mut state);
-    base.plan.camera_of(thing, &state).map_or(Vec3::NEG_Z, |camera| camera.rotation * Vec3::NEG_Z)
+/// The scene at the start of a drag, with its things at the time shown.
+pub(super) struct BaseMoment<'a> {
+    pub(super) base: &'a SceneBase,
+    pub(super) things: &'a StageScene,
+    pub(super) time: StageTime,
+}
+
+impl BaseMoment<'_> {
+    /// Adds the replacements that put a thing where the gizmo put it: now, and before.
+    fn moved(
+        &self,
+        thing: usize,
+        tool: Tool,
+        [now, before]: [Transform; 2],
+        parts: &mut Vec<TextSplices>,
+    ) -> Result<(), GestureRefusal> {
+        let planned = self.base.plan.things().get(thing);
+        let planned = planned.ok_or_else(|| GestureRefusal("The thing is gone".to_owned()))?;
+        let is_turned = tool == Tool::Rotate && planned.kind != "camera";
+        let facing = is_turned.then(|| facing(now.rotation));
+        let is_moved = tool == Tool::Move || now.translation != before.translation;
+        match facing {
+            _ if is_moved => parts.push(self.placed(thing, now.translation, facing)?),
+            Some(facing) => {
+                parts.push(face_splices(&self.base.scene(), &planned.id, self.time, facing)?);
+            }
+            None => {}
+        }
+        match tool {
+            Tool::Rotate if !is_turned => {
+                let ahead = now.rotation * before.rotation.inverse() * self.direction_of_camera(thing);
+                let distance = distance_of_look(self.base, &planned.id, before.translation);
+                parts.push(self.looking(&planned.id, now.translation + ahead * distance)?);
+            }
+            Tool::Scale => parts.push(self.scaled(&planned.id, now.scale / before.scale)?),
+            Tool::Move | Tool::Rotate => {}
+        }
+        Ok(())
+    }
+
+    /// Returns the replacements that put a thing at `position`, with another direction where there is one, degrees. Refused where something carries it, and
+    /// where it follows a path.
+    pub(super) fn placed(
+        &self,
+        thing: usize,
+        position: Vec3,
+        facing: Option<f64>,
+    ) -> Result<TextSplices, GestureRefusal> {
+        let (script, plan) = (&self.base.script, &self.base.plan);
+        let id = &plan.things()[thing].id;
+        let own = plan.placement(thing, self.time).unwrap_or_default().position.as_vec3();
+        let shown = self.things.things.get(thing).map_or(own, |thing| thing.transform.translation);
+        if shown.distance(own) > CARRIED {
+            return Err(GestureRefusal(format!("Something holds {id} at this time: move what holds it")));
+        }
+        let follows = (1..script.actions().len()).find(|&action| {
+            let element = script.element(action);
+            element.row.name == "move"
+                && element.value("who") == Some(id)
+                && element.value("path").is_some()
+                && plan.schedule().times().get(action).is_some_and(|times| times.begin <= self.time)
+        });
+        if let Some(path) = follows.and_then(|action| script.element(action).value("path")) {
+            return Err(GestureRefusal(format!("{id} follows the path {path} at this time: move the path")));
+        }
+        place_splices(&self.base.scene(), id, self.time, rounded(position), facing)
+    }
+
+    /// Returns the replacements with which a camera of the cast looks at a point.
+    pub(super) fn looking(&self, id: &str, look: Vec3) -> Result<TextSplices, GestureRefusal> {
+        let value = rounded(look).to_array().map(|number| number.to_string()).join(" ");
+        self.set(id, "look", &value)
+    }
+
+    /// Returns the replacements that give a role or a prop another size.
+    fn scaled(&self, id: &str, by: Vec3) -> Result<TextSplices, GestureRefusal> {
+        let script = &self.base.script;
+        let element = script.thing_element(id).map(|element| &script.tree().elements()[element]);
+        let has_scale = element.is_some_and(|element| element.row.attribute("scale").is_some());
+        if !has_scale {
+            return Err(GestureRefusal(format!("{id} has no size of its own")));
+        }
+        // The axis that changed most.
+        let by = by.to_array().into_iter().max_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
+        let written =
+            element.and_then(|element| element.value("scale")).and_then(|scale| scale.parse::<f64>().ok());
+        let scale = (written.unwrap_or(1.0) * f64::from(by.unwrap_or(1.0)) * 1e5).round() / 1e5;
+        if !(scale.is_finite() && scale > 0.0) {
+            return Err(GestureRefusal("The size has to be greater than zero".to_owned()));
+        }
+        self.set(id, "scale", &scale.to_string())
+    }
+
+    fn set(&self, id: &str, attribute: &str, value: &str) -> Result<TextSplices, GestureRefusal> {
+        let script = &self.base.script;
+        let splices =
+            script.thing_element(id).and_then(|own| set_attribute(script.tree(), own, attribute, value));
+        splices.ok_or_else(|| GestureRefusal(format!("{attribute} of {id} cannot be written here")))
+    }
+
+    /// Returns the direction in which a camera looks.
+    fn direction_of_camera(&self, thing: usize) -> Vec3 {
+        let camera = self.base.plan.camera_of(thing, self.things);
+        camera.map_or(Vec3::NEG_Z, |camera| camera.rotation * Vec3::NEG_Z)
+    }
 }
 
 /// Returns the direction of a rotation about the vertical, degrees, to a hundredth: 0 looks along +z, 90 along +x.

@@ -1,10 +1,10 @@
 //! Things on the ground: while they are moved, by a command, and where a file is dropped.
 
-use super::scene_gizmo::{place_text, read};
+use super::scene_gizmo::{BaseMoment, joined};
 use super::scene_text::gesture;
 use crate::panels::request::Effect;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::stage::gesture::GestureRefusal;
+use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text};
 use dragonfly_document::SceneView;
 use dragonfly_picture::PosedScene;
 use dragonfly_picture::gizmo::GizmoView;
@@ -40,19 +40,19 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
                 "Nothing that is selected can stand: choose roles, props or marks".to_owned(),
             ));
         }
-        let mut script = Arc::clone(&base.script);
-        for (thing, height) in standing {
-            let place = state.things[thing].transform.translation.with_y(height);
-            script = Arc::new(read(place_text(base, &script, thing, time, place)?)?);
-        }
-        Ok(script.tree().text().to_string())
+        let moment = BaseMoment { base, things: &state, time };
+        let placed = |(thing, height): (usize, f32)| {
+            moment.placed(thing, state.things[thing].transform.translation.with_y(height), None)
+        };
+        let parts: Result<Vec<_>, GestureRefusal> = standing.into_iter().map(placed).collect();
+        spliced_text(&base.script, joined(parts?)?)
     })
 }
 
 /// Returns the height at which each thing is on the ground, meters: a prop with its lowest point at this time, a role or a mark with its place. `None` for
 /// things in the air, and for paths.
-pub(super) fn heights_on_ground(scene: &SceneView, seconds: f64) -> Vec<Option<f32>> {
-    let Some(mut posed) = PosedScene::without(scene, &[], None) else { return Vec::new() };
+pub(super) fn heights_on_ground(scene: &SceneView, seconds: f64) -> Arc<[Option<f32>]> {
+    let Some(mut posed) = PosedScene::new(scene, &[], None) else { return Arc::default() };
     posed.pose(seconds);
     let height = |(thing, kind): (usize, &str)| match kind {
         "role" | "mark" => Some(0.0),

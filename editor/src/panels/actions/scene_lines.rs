@@ -4,7 +4,7 @@ use super::scene_text::{self, gesture};
 use super::{pose_line, tools};
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::panels::request::Effect;
-use crate::panels::scene::{LineRequest, NewThing, line_named};
+use crate::panels::scene::{LineEraser, LineRequest, NO_LINES, NewThing, line_name, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
@@ -12,19 +12,14 @@ use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, p
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use dragonfly_anim::stage::{PlannedThing, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
+use dragonfly_document::text::sentence;
 use dragonfly_document::{Change, SceneView, paths_of_renamed_line};
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
 use std::sync::Arc;
 
-/// Distance from the pointer within which a line is erased, points.
-const REACH: f64 = 7.0;
-
 /// Least distance by which a path may differ from the stroke, meters.
 const PATH_TOLERANCE: f64 = 0.01;
-
-/// The text of a file of lines before the first one.
-const NO_LINES: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<lines version=\"1\">\n</lines>\n";
 
 /// Begins to draw lines or paths; a second time ends it.
 pub(in crate::panels) fn choose(workspace: &mut Workspace, use_of: LineUse) {
@@ -50,12 +45,19 @@ pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<
         LineAnswer::Drawn(LineUse::Path, stroke) => draw_path(workspace, &stroke),
         LineAnswer::Drawn(LineUse::Note, stroke) => draw_note(workspace, &stroke),
         LineAnswer::Drawn(LineUse::Pose, stroke) => pose_line::pose(workspace, &stroke),
-        LineAnswer::Erased(places) => erase(workspace, &places),
+        LineAnswer::EraserDown(at) => {
+            put_eraser(workspace, at);
+            None
+        }
+        LineAnswer::EraserMoved(at) => {
+            move_eraser(workspace, at);
+            None
+        }
+        LineAnswer::EraserUp => erase(workspace),
         LineAnswer::NoGround => {
             workspace.say(MessageSeverity::Info, "There is no ground above the horizon");
             None
         }
-        LineAnswer::Left => None,
     }
 }
 
@@ -113,26 +115,42 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
     effect
 }
 
-/// Removes the lines that are near one of these places, points from the top left of the viewport.
-fn erase(workspace: &mut Workspace, places: &[Vec2]) -> Option<Effect> {
-    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+/// Begins to erase the lines that are shown now.
+fn put_eraser(workspace: &mut Workspace, at: Vec2) {
+    let lines = workspace.read().scene().and_then(|scene| scene.lines.clone());
     let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
-    let is_near = |line: &DrawnLine| {
-        let samples = line.samples();
-        let mut seen = samples.points().iter().filter_map(|point| view.to_screen(*point));
-        seen.any(|at| places.iter().any(|place| place.as_dvec2().distance(at) <= REACH))
-    };
-    let lines = scene.lines.as_ref()?;
-    // A line that moves is elsewhere.
-    let found: Vec<usize> = (0..lines.list().len())
-        .filter(|&at| lines.list()[at].of.as_deref().is_none_or(str::is_empty) && is_near(&lines.list()[at]))
-        .collect();
+    let is_hidden = |index, line: &DrawnLine| workspace.scene.lines().is_hidden(&line_name(index, line));
+    let eraser = lines
+        .filter(|_| workspace.settings.look.lines)
+        .map(|lines| LineEraser::new(lines, is_hidden, view, at.as_dvec2()));
+    *workspace.scene.lines_mut().eraser_mut() = eraser;
+    move_eraser(workspace, at);
+}
+
+/// Notes the lines that the eraser touches on its way to a position.
+fn move_eraser(workspace: &mut Workspace, at: Vec2) {
+    let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
+    let time = workspace.read().scene_time();
+    if let Some(eraser) = workspace.scene.lines_mut().eraser_mut() {
+        eraser.move_to(at.as_dvec2(), &view, time);
+    }
+}
+
+/// Removes the lines that the eraser touched.
+fn erase(workspace: &mut Workspace) -> Option<Effect> {
+    let eraser = workspace.scene.lines_mut().eraser_mut().take()?;
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let (lines, found) = eraser.hits();
     if found.is_empty() {
+        return None;
+    }
+    if !scene.lines.as_ref().is_some_and(|now| Arc::ptr_eq(now, lines)) {
+        workspace.say(MessageSeverity::Info, "The lines have changed meanwhile: try again");
         return None;
     }
     edit_lines(workspace, &scene, "Erase line", |lines| {
         let all: Option<Vec<TextSplices>> = found.iter().map(|&at| lines.removed(at)).collect();
-        TextSplices::new(all?.iter().flat_map(|splices| splices.list().to_vec()).collect())
+        TextSplices::joined(all?)
     })
 }
 
@@ -151,7 +169,9 @@ fn change_line(
 fn rename(workspace: &mut Workspace, old: &str, new: Option<&str>) -> Option<Effect> {
     const LABEL: &str = "Rename";
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
-    let edit = lines_edit(&scene, LABEL, |lines| lines.set(line_named(lines, old)?, "id", new));
+    // Without a name it cannot be followed.
+    let renamed = new.map(|_| old);
+    let edit = lines_edit_of(&scene, LABEL, renamed, |lines| lines.set(line_named(lines, old)?, "id", new));
     let also = new.map_or(Ok(Vec::new()), |new| paths_of_renamed_line(&scene, old, new, LABEL));
     match edit.and_then(|edit| Ok(EditScript { also: also?, ..edit })) {
         Ok(edit) => {
@@ -201,7 +221,17 @@ pub(super) fn lines_edit(
     scene: &SceneView,
     label: &str,
     change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
-) -> Result<EditScript, &'static str> {
+) -> Result<EditScript, String> {
+    lines_edit_of(scene, label, None, change)
+}
+
+/// Does the same as [`lines_edit`] where another edit gives the paths along the line `renamed` its new name.
+fn lines_edit_of(
+    scene: &SceneView,
+    label: &str,
+    renamed: Option<&str>,
+    change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
+) -> Result<EditScript, String> {
     let project = scene
         .project
         .as_ref()
@@ -209,14 +239,16 @@ pub(super) fn lines_edit(
     let refused = "The line cannot be written";
     if let Some(name) = project.lines() {
         let file = scene.texts.called(name).ok_or("The file of lines is missing")?;
-        let lines = DrawnLines::read(Arc::clone(&file.text)).map_err(|_| "The file of lines has errors")?;
+        let lines = DrawnLines::read_of(Arc::clone(&file.text), Some(project));
+        let lines = lines.map_err(|_| "The file of lines has errors")?;
         let splices = change(&lines).ok_or(refused)?;
+        check(scene, &lines, renamed, &splices.apply(&file.text))?;
         let edit = EditScript::of(&file.text, &splices, label);
         return Ok(EditScript { text: Some(TextRef::Name(name.to_owned())), ..edit });
     }
     let main = scene.texts.list().first().ok_or("The project has no text")?;
     if **project.tree().text() != *main.text {
-        return Err("The project has errors: correct it first");
+        return Err("The project has errors: correct it first".to_owned());
     }
     let name = (1_u32..)
         .map(
@@ -228,6 +260,7 @@ pub(super) fn lines_edit(
         .ok_or(refused)?;
     let empty = DrawnLines::read(NO_LINES).map_err(|_| refused)?;
     let text = change(&empty).ok_or(refused)?.apply(NO_LINES);
+    check(scene, &empty, renamed, &text)?;
     let place = match project.tree().elements().iter().rposition(|element| element.parent == Some(0)) {
         Some(last) => ElementPlace::After(last),
         None => ElementPlace::First(0),
@@ -242,6 +275,20 @@ pub(super) fn lines_edit(
         label: Some(label.to_owned()),
         also: vec![EditScript { text: Some(TextRef::Name(main.name.to_string())), ..of_project }],
     })
+}
+
+/// Refuses a text of lines that cannot be read, and one without a line that a path of the script needs, apart from the one that is `renamed`.
+fn check(scene: &SceneView, before: &DrawnLines, renamed: Option<&str>, text: &str) -> Result<(), String> {
+    let after = DrawnLines::read_of(text, scene.project.as_deref())
+        .map_err(|errors| errors.first().map_or_else(String::new, |error| sentence(&error.text())))?;
+    let things = scene.script.iter().flat_map(|script| script.things());
+    let needed = things.filter_map(|thing| Some((thing.value("id")?, thing.value("line")?)));
+    for (path, line) in needed {
+        if renamed != Some(line) && before.called(line).is_some() && after.called(line).is_none() {
+            return Err(format!("The path {path} follows the line {line}: delete the path first"));
+        }
+    }
+    Ok(())
 }
 
 /// Adds a path along the selected line to the cast, and selects it.

@@ -47,9 +47,12 @@ fn path_change(
     let scene = open_scene(workspace)?;
     let base = match workspace.stage.base() {
         Some(base) => base.clone(),
-        None => SceneBase::of(&scene, workspace.scene.text(&scene))?,
+        None => {
+            let base = SceneBase::of(&scene, workspace.scene.text(&scene))?;
+            workspace.stage.set_base(Some(base.clone()));
+            base
+        }
     };
-    workspace.stage.set_base(Some(base.clone()));
     let text = move_path_point(&base.script, path, point.index, point.place)?;
     Ok(ScriptChange { from: Arc::clone(base.text()), text, label: "Move point", gesture: Some(gesture) })
 }
@@ -58,14 +61,17 @@ fn path_change(
 fn line_edit(workspace: &mut Workspace, line: &str, point: &PathPoint) -> Result<EditScript, GestureRefusal> {
     let scene = match workspace.stage.line_base() {
         Some(scene) => Arc::clone(scene),
-        None => open_scene(workspace)?,
+        None => {
+            let scene = open_scene(workspace)?;
+            workspace.stage.set_line_base(Arc::clone(&scene));
+            scene
+        }
     };
-    workspace.stage.set_line_base(Some(Arc::clone(&scene)));
     let edit = lines_edit(&scene, "Move point", |lines| {
         let at = line_named(lines, line)?;
         lines.reshaped(at, &moved(&lines.list()[at], point)?)
     });
-    edit.map_err(|reason| GestureRefusal(reason.to_owned()))
+    edit.map_err(GestureRefusal)
 }
 
 fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, GestureRefusal> {

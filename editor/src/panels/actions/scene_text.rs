@@ -5,13 +5,19 @@ use crate::panels::scene::{NewThing, SceneBase, ScriptChange, new_thing_text};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
+use dragonfly_document::Change;
 use std::sync::Arc;
 
 /// Sends a new text of the script.
 pub(super) fn change_text(workspace: &mut Workspace, change: &ScriptChange) -> Option<Effect> {
+    text_change(workspace, change).map(Effect::Change)
+}
+
+/// Returns the change of the document that makes a text that of the script.
+pub(super) fn text_change(workspace: &mut Workspace, change: &ScriptChange) -> Option<Change> {
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
     match workspace.scene.change(&scene, change) {
-        Ok(change) => change.map(Effect::Change),
+        Ok(change) => change,
         Err(reason) => {
             workspace.say(MessageSeverity::Info, reason);
             None
@@ -38,14 +44,24 @@ pub(super) fn gesture(
 
 /// Adds a thing to the cast and selects it.
 pub(in crate::panels) fn add(workspace: &mut Workspace, thing: &NewThing) -> Option<Effect> {
-    let mut added = None;
-    let effect = gesture(workspace, thing.label(), |base| {
-        let (text, id) = new_thing_text(base.text(), thing)?;
-        added = Some(id);
-        Ok(text)
+    add_all(workspace, std::slice::from_ref(thing))
+}
+
+/// Adds things of one kind to the cast in one step, and selects them.
+pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing]) -> Option<Effect> {
+    let label = things.first()?.label();
+    let mut added = Vec::new();
+    let effect = gesture(workspace, label, |base| {
+        let mut text = Arc::clone(base.text());
+        for thing in things {
+            let (next, id) = new_thing_text(&base.script, &text, thing)?;
+            added.push(id);
+            text = next.into();
+        }
+        Ok(text.to_string())
     });
-    if let Some(id) = added {
-        workspace.scene.await_thing(id);
+    if effect.is_some() {
+        workspace.scene.await_things(added);
     }
     effect
 }

@@ -2,9 +2,11 @@
 
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::bounds::AxisBox;
+use dragonfly_anim::data::Transform;
+use dragonfly_anim::stage::PlannedThing;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{SceneModel, SceneView};
-use dragonfly_picture::PosedScene;
+use dragonfly_document::{LoadedModel, SceneModel, SceneView};
+use dragonfly_picture::placeholder_box;
 use egui::Pos2;
 use glam::Vec3;
 use std::sync::Arc;
@@ -17,8 +19,10 @@ pub(super) fn frame_once(workspace: &mut Workspace) {
     let Some(scene) = workspace.model.view().and_then(|view| view.scene.as_deref()) else { return };
     let is_complete =
         scene.plan.is_some() && scene.models.values().all(|model| !matches!(model, SceneModel::Loading));
-    if workspace.stage.frames_now(is_complete) {
-        frame(workspace, |_| true);
+    if workspace.stage.frames_now(is_complete)
+        && let Some(around) = framed_box(workspace, |_| true)
+    {
+        workspace.camera.frame_free(around.min, around.max);
     }
 }
 
@@ -35,42 +39,65 @@ pub(super) fn frame_selected(workspace: &mut Workspace) -> bool {
 }
 
 fn frame(workspace: &mut Workspace, is_framed: impl Fn(&str) -> bool) -> bool {
-    let Some(scene) = workspace.model.view().and_then(|view| view.scene.clone()) else { return false };
-    let hidden: Vec<Arc<str>> = workspace.scene.hidden().map(Arc::from).collect();
-    let seconds = f64::from(workspace.player.time());
-    if let Some(around) = box_of(&scene, &hidden, seconds, is_framed) {
+    if workspace.read().scene().is_none() {
+        return false;
+    }
+    if let Some(around) = framed_box(workspace, is_framed) {
         workspace.camera.frame(around.min, around.max);
     }
     true
 }
 
-/// Returns the box around things at a time: around what is drawn of them, or around their places where nothing is. `None` without a plan
-/// and without things.
-fn box_of(
-    scene: &SceneView,
-    hidden: &[Arc<str>],
-    seconds: f64,
-    is_framed: impl Fn(&str) -> bool,
-) -> Option<AxisBox> {
-    let mut posed = PosedScene::without(scene, hidden, None)?;
-    posed.pose(seconds);
-    let plan = Arc::clone(posed.plan());
-    let things = || plan.things().iter().enumerate().filter(|(_, thing)| is_framed(&thing.id));
-    let union = |around: AxisBox, other: AxisBox| around.union(other);
-    let drawn = things().map(|(thing, _)| posed.box_of(thing)).filter(|own| !own.is_empty());
-    let drawn = drawn.fold(AxisBox::EMPTY, union);
-    if !drawn.is_empty() {
-        return Some(drawn);
+/// Returns the box around things at the time shown: around what is drawn of them at rest, or around their places where nothing is. `None`
+/// without a plan and without things.
+fn framed_box(workspace: &mut Workspace, is_framed: impl Fn(&str) -> bool) -> Option<AxisBox> {
+    let scene = workspace.model.view()?.scene.clone()?;
+    let plan = scene.plan.as_ref()?;
+    let time = workspace.read().scene_time();
+    let hidden = &workspace.scene;
+    let shown = workspace.stage.things_at(plan, time);
+    let (mut drawn, mut places) = (AxisBox::EMPTY, AxisBox::EMPTY);
+    for (planned, state) in plan.things().iter().zip(&shown.things).filter(|(own, _)| is_framed(&own.id)) {
+        let mut near = |point: Vec3| {
+            places = places.union(AxisBox { min: point - AROUND, max: point + AROUND });
+        };
+        match &planned.path {
+            Some(path) => {
+                let shares = [0.0, 0.25, 0.5, 0.75, 1.0].into_iter();
+                shares.for_each(|share| near(path.at(path.length() * share).position.as_vec3()));
+            }
+            None => near(state.transform.translation),
+        }
+        if let Some(own) =
+            box_of(&scene, planned, &state.transform).filter(|_| !hidden.is_hidden(&planned.id))
+        {
+            drawn = drawn.union(own);
+        }
     }
-    let points = things().flat_map(|(thing, planned)| match &planned.path {
-        Some(path) => [0.0, 0.25, 0.5, 0.75, 1.0]
-            .map(|share| path.at(path.length() * share).position.as_vec3())
-            .to_vec(),
-        None => vec![posed.middle_of(thing)],
-    });
-    let near = |point: Vec3| AxisBox { min: point - AROUND, max: point + AROUND };
-    let places = points.map(near).fold(AxisBox::EMPTY, union);
-    (!places.is_empty()).then_some(places)
+    let found = if drawn.is_empty() { places } else { drawn };
+    (!found.is_empty()).then_some(found)
+}
+
+/// Returns the box around what is drawn of a thing at a place; `None` for things without a surface.
+fn box_of(scene: &SceneView, thing: &PlannedThing, place: &Transform) -> Option<AxisBox> {
+    if !matches!(thing.kind, "role" | "prop") {
+        return None;
+    }
+    let (own, scale) = match model_of(scene, &thing.id) {
+        Some(loaded) => (AxisBox { min: loaded.bounds.min, max: loaded.bounds.max }, place.scale),
+        None => (placeholder_box(thing.kind == "role"), Vec3::ONE),
+    };
+    Some(own.moved(&Transform { scale, ..*place }.to_matrix()))
+}
+
+/// Returns the model of the thing called `id`; `None` for things without one, and while it is missing.
+fn model_of<'a>(scene: &'a SceneView, id: &str) -> Option<&'a LoadedModel> {
+    let script = scene.script.as_ref()?;
+    let element = &script.tree().elements()[script.thing_element(id)?];
+    match scene.models.get(element.value("model")?)? {
+        SceneModel::Loaded(loaded) => Some(loaded),
+        SceneModel::Loading | SceneModel::Missing(_) => None,
+    }
 }
 
 /// Selects one of the things under a click, which come from the graphics thread, the nearest first. A click at the same place means the

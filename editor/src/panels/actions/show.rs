@@ -1,7 +1,7 @@
 //! The start of a frame, and a newer view of the document.
 
 use super::reopened::BeforeReload;
-use super::{drags, framing, keys, layers, playback, scene, scene_camera, scope, tools, undo};
+use super::{drags, framing, keys, layers, left_scene, playback, scene, scene_camera, scope, tools, undo};
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
 use crate::panels::difference_text::ShownScale;
@@ -54,7 +54,9 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
         let before = BeforeReload::of(workspace, &view);
+        let left = left_scene::leave(workspace).or(workspace.left_scene.take());
         workspace.stage.reset();
+        workspace.tools.controls_mut().line_mut().choose(None);
         workspace.camera.set_through(ThroughCamera::Free);
         workspace.model.replace(view);
         workspace.selections.open(done);
@@ -63,7 +65,12 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         workspace.scene.reset();
         show_model(workspace);
         before.into_iter().for_each(|before| before.restore(workspace));
-        return scene::opened(workspace);
+        scene::opened(workspace);
+        match left {
+            Some(left) if left_scene::is_shown(&left, workspace) => left_scene::restore(left, workspace),
+            left => workspace.left_scene = left,
+        }
+        return;
     }
     let before = workspace.model.replace(view);
     scene::follow(workspace, answered);

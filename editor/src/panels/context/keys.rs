@@ -39,7 +39,7 @@ impl<'a> PanelContext<'a> {
 
     /// Returns the duration of a frame, seconds.
     pub(in crate::panels) fn frame_seconds(&self) -> f32 {
-        1.0 / self.frame_rate.max(1) as f32
+        1.0 / self.frames_per_second().max(1.0) as f32
     }
 
     /// Returns start and length of the take that is shown.

@@ -217,10 +217,15 @@ impl<'a> PanelContext<'a> {
 
     /// Returns whether keys run commands: no question is shown, and nothing is dragged.
     pub fn takes_shortcuts(&self) -> bool {
-        let is_typing = self.scene_editing.is_typing(self.dragging.open());
         self.question().is_none()
-            && (!self.dragging.is_open() || is_typing)
+            && (!self.dragging.is_open() || self.keeps_gesture())
             && self.keys.buttonless().is_none()
+    }
+
+    /// Returns whether the gesture in progress is kept when something else is done: a word that is typed, a camera that the wheel moves.
+    pub fn keeps_gesture(&self) -> bool {
+        let open = self.dragging.open();
+        self.scene_editing.is_typing(open) || self.stage.is_turning(open)
     }
 
     /// Returns the folder of the pose library: the one that was chosen, or the program's own.

@@ -1,13 +1,10 @@
 //! Queries about the scene that is open.
 
 use super::PanelContext;
-use dragonfly_anim::stage::time::StageTime;
+use dragonfly_anim::stage::time::{StageRate, StageTime};
 use dragonfly_document::SceneView;
 use dragonfly_picture::LineHandle;
 use glam::Vec3;
-
-/// Distance from a frame within which a time is that frame, frames.
-const ON_FRAME: f64 = 0.01;
 
 impl<'a> PanelContext<'a> {
     /// Returns the scene that is open; `None` while a model is.
@@ -37,14 +34,20 @@ impl<'a> PanelContext<'a> {
     /// Returns the exact time of the playhead in the scene.
     pub fn scene_time(&self) -> StageTime {
         let seconds = f64::from(self.time());
-        let Some(script) = self.scene().and_then(|scene| scene.script.as_ref()) else {
-            return StageTime::from_seconds(seconds);
-        };
-        let frame = seconds * script.rate().per_second();
-        match (frame - frame.round()).abs() < ON_FRAME {
-            true => script.rate().frame(frame.round() as i64),
-            false => StageTime::from_seconds(seconds),
+        match self.scene_rate() {
+            Some(rate) => rate.time_of(seconds),
+            None => StageTime::from_seconds(seconds),
         }
+    }
+
+    /// Returns the frame rate of the scene that is open; `None` while a model is, and before a script works.
+    pub fn scene_rate(&self) -> Option<StageRate> {
+        Some(self.scene()?.script.as_ref()?.rate())
+    }
+
+    /// Returns the frames per second of what is open.
+    pub fn frames_per_second(&self) -> f64 {
+        self.scene_rate().map_or(f64::from(self.frame_rate), StageRate::per_second)
     }
 
     /// Returns the id of the camera of the shot at the playhead; `None` where the cast has no camera.

@@ -82,7 +82,7 @@ pub(in crate::panels) fn ticks(
     context: &PanelContext<'_>,
     theme: &Theme,
 ) {
-    let rate = context.frame_rate;
+    let rate = context.frames_per_second();
     let ruler = scale.ruler();
     let decimals = ruler.decimals(rate);
     let seconds = context.keys.ruler_in_seconds();
@@ -300,7 +300,7 @@ fn to_key_or_frame(time: f32, scale: &TimeScale, context: &PanelContext<'_>) -> 
 
 /// Returns the frame nearest to a time, seconds.
 pub(in crate::panels) fn to_frame(time: f32, context: &PanelContext<'_>) -> f32 {
-    let rate = context.frame_rate;
+    let rate = context.frames_per_second();
     crate::panels::ruler::time_of(crate::panels::ruler::frame_of(time, rate), rate)
 }
 

@@ -72,12 +72,7 @@ fn selected(script: &StageScript, context: &PanelContext<'_>) -> Option<usize> {
     if let Some(action) = editing.action().and_then(|action| script.actions().get(action)) {
         return Some(action.element);
     }
-    let thing = editing.things().last()?;
-    script
-        .tree()
-        .elements()
-        .iter()
-        .position(|element| element.value("id") == Some(thing) && script.thing_called(thing).is_some())
+    script.thing_element(editing.things().last()?)
 }
 
 fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
@@ -186,8 +181,7 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         let text = splices.map(|splices| splices.apply(tree.text()));
         let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
         // A reference to something that does not exist is refused with its reason.
-        StageScript::read(text.as_str())
-            .map_err(|errors| refused(errors.first().map_or(String::new(), |error| error.text())))?;
+        base.script.reread(text.as_str())?;
         Ok(SceneRequest::Text(ScriptChange {
             from: Arc::clone(tree.text()),
             text,

@@ -26,14 +26,19 @@ impl SceneBase {
         let (Some(script), Some(plan)) = (&scene.script, &scene.plan) else {
             return refused("The script has errors: correct it first");
         };
-        let own = script.tree().text();
-        if Arc::ptr_eq(own, text) || **own == **text {
+        if is_read(script, text) {
             return Ok(Self { script: Arc::clone(script), plan: Arc::clone(plan) });
         }
         refused(match scene.errors.is_empty() {
             true => "The script has just changed: try again",
             false => "The script has errors: correct it first",
         })
+    }
+
+    /// Returns whether the newest text is on its way through the document, which did not find errors in the one before.
+    pub fn is_awaited(scene: &SceneView, text: &Arc<str>) -> bool {
+        let is_read = scene.script.as_ref().is_some_and(|script| is_read(script, text));
+        scene.plan.is_some() && scene.errors.is_empty() && !is_read
     }
 
     /// Returns the scene as gestures take it.
@@ -45,4 +50,9 @@ impl SceneBase {
     pub fn text(&self) -> &Arc<str> {
         self.script.tree().text()
     }
+}
+
+fn is_read(script: &StageScript, text: &Arc<str>) -> bool {
+    let own = script.tree().text();
+    Arc::ptr_eq(own, text) || **own == **text
 }

@@ -4,6 +4,7 @@ use super::follow::follow_action;
 use super::line_editing::{LineEditing, MarkedThings};
 use super::request::ScriptChange;
 use super::sounds::SceneSounds;
+use super::thing_selection::ThingSelection;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::lanes::SceneLanes;
@@ -18,15 +19,14 @@ use std::sync::Arc;
 /// The state of the editor of scenes; it contains nothing of the document.
 #[derive(Clone, Debug)]
 pub struct SceneEditing {
-    /// Ids of the selected things; the active one is the last.
-    things: Vec<Box<str>>,
+    things: ThingSelection,
     /// The selected action of the script that is shown.
     action: Option<usize>,
     hidden: BTreeSet<Box<str>>,
     locked: BTreeSet<Box<str>>,
     renaming: Option<Box<str>>,
-    /// The thing that is selected as soon as the script has it.
-    awaited: Option<Box<str>>,
+    /// The things that are selected as soon as the script has them.
+    awaited: Vec<Box<str>>,
     ripple: bool,
     /// The part of time that the timeline shows; `None` for all.
     window: Option<TimeWindow>,
@@ -34,6 +34,8 @@ pub struct SceneEditing {
     lanes: Arc<SceneLanes>,
     lines: LineEditing,
     sounds: SceneSounds,
+    /// The newest text that was asked for and not passed on yet.
+    proposed: Option<Arc<str>>,
     /// The newest text that was sent and not answered yet.
     sent: Option<SentText>,
     /// The gesture in progress, with the text at its start.
@@ -46,25 +48,26 @@ pub struct SceneEditing {
 #[derive(Clone, Debug)]
 struct SentText {
     text: Arc<str>,
-    /// Number of the change; `None` until it is passed on.
-    number: Option<u64>,
+    /// Number of the change.
+    number: u64,
 }
 
 impl Default for SceneEditing {
     fn default() -> Self {
         Self {
-            things: Vec::new(),
+            things: ThingSelection::default(),
             action: None,
             hidden: BTreeSet::new(),
             locked: BTreeSet::new(),
             renaming: None,
-            awaited: None,
+            awaited: Vec::new(),
             ripple: true,
             window: None,
             shown: None,
             lanes: Arc::default(),
             lines: LineEditing::default(),
             sounds: SceneSounds::default(),
+            proposed: None,
             sent: None,
             gesture: None,
             typing: None,
@@ -73,19 +76,20 @@ impl Default for SceneEditing {
 }
 
 impl SceneEditing {
-    /// Returns the newest text: the one that was sent last, or that of the view.
+    /// Returns the newest text: the one that was asked for or sent last, or that of the view.
     pub fn text<'a>(&'a self, scene: &'a SceneView) -> &'a Arc<str> {
-        self.sent.as_ref().map_or(&scene.text, |sent| &sent.text)
+        let sent = self.sent.as_ref().map(|sent| &sent.text);
+        self.proposed.as_ref().or(sent).unwrap_or(&scene.text)
     }
 
     /// Returns the ids of the selected things, the active one last.
     pub fn things(&self) -> &[Box<str>] {
-        &self.things
+        self.things.list()
     }
 
     /// Returns whether a thing is selected.
     pub fn is_selected(&self, thing: &str) -> bool {
-        self.things.iter().any(|id| &**id == thing)
+        self.things.contains(thing)
     }
 
     /// Returns the selected action.
@@ -154,7 +158,7 @@ impl SceneEditing {
 
     /// Adapts what is drawn of lines and paths to the scene and the selection.
     pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>) {
-        let (selected, hidden, locked) = (&*self.things, &self.hidden, &self.locked);
+        let (selected, hidden, locked) = (self.things.list(), &self.hidden, &self.locked);
         self.lines.update(scene, MarkedThings { selected, hidden, locked });
     }
 
@@ -164,18 +168,7 @@ impl SceneEditing {
     }
 
     pub(in crate::panels) fn select_things(&mut self, things: &[Box<str>], choice: Choice) {
-        if choice == Choice::Replace {
-            self.things.clear();
-        }
-        for thing in things {
-            let place = self.things.iter().position(|id| id == thing);
-            if let Some(place) = place {
-                self.things.remove(place);
-            }
-            if place.is_none() || choice != Choice::Toggle {
-                self.things.push(thing.clone());
-            }
-        }
+        self.things.choose(things, choice);
     }
 
     /// Selects an action and the thing that acts.
@@ -184,7 +177,7 @@ impl SceneEditing {
         let Some((script, _)) = &self.shown else { return };
         let element = action.and_then(|action| script.actions().get(action).map(|_| script.element(action)));
         if let Some(who) = element.and_then(|element| element.value("who")) {
-            self.things = vec![who.into()];
+            self.things.replace(vec![who.into()]);
         }
     }
 
@@ -200,7 +193,7 @@ impl SceneEditing {
             let own = &tree.elements()[element];
             if let Some(id) = own.value("id").filter(|id| script.thing_called(id).is_some()) {
                 self.action = None;
-                self.things = vec![id.into()];
+                self.things.replace(vec![id.into()]);
                 return;
             }
             let Some(parent) = own.parent else { return };
@@ -220,13 +213,31 @@ impl SceneEditing {
         self.renaming = thing;
     }
 
-    /// Selects a thing as soon as the script has it.
-    pub(in crate::panels) fn await_thing(&mut self, thing: Box<str>) {
-        self.awaited = Some(thing);
+    /// Selects things as soon as the script has them.
+    pub(in crate::panels) fn await_things(&mut self, things: Vec<Box<str>>) {
+        self.awaited = things;
     }
 
     pub(in crate::panels) fn set_ripple(&mut self, ripple: bool) {
         self.ripple = ripple;
+    }
+
+    /// Returns the state without what has not ended: edits that were not answered, gestures, names that are typed.
+    pub(in crate::panels) fn left(&self) -> Self {
+        Self {
+            renaming: None,
+            awaited: Vec::new(),
+            proposed: None,
+            sent: None,
+            gesture: None,
+            typing: None,
+            ..self.clone()
+        }
+    }
+
+    /// Continues with a state that was left. Sounds are read again: their files may have changed.
+    pub(in crate::panels) fn resume(&mut self, left: Self) {
+        *self = Self { sounds: std::mem::take(&mut self.sounds), ..left };
     }
 
     /// Forgets everything: another document is open.
@@ -236,7 +247,7 @@ impl SceneEditing {
 
     /// Adapts to a newer view.
     pub(in crate::panels) fn update(&mut self, scene: Option<&SceneView>, answered: u64) {
-        self.sent.take_if(|sent| sent.number.is_some_and(|number| number <= answered));
+        self.sent.take_if(|sent| sent.number <= answered);
         let shown = scene
             .and_then(|scene| Some((Arc::clone(scene.script.as_ref()?), Arc::clone(scene.plan.as_ref()?))));
         let Some((script, plan)) = shown else { return };
@@ -250,8 +261,9 @@ impl SceneEditing {
             self.action = self.action.and_then(|action| follow_action(old, action, &script));
             self.things.retain(|id| script.thing_called(id).is_some());
         }
-        if let Some(awaited) = self.awaited.take_if(|id| script.thing_called(id).is_some()) {
-            (self.things, self.action) = (vec![awaited], None);
+        if !self.awaited.is_empty() && self.awaited.iter().all(|id| script.thing_called(id).is_some()) {
+            self.things.replace(std::mem::take(&mut self.awaited));
+            self.action = None;
         }
         self.lanes = Arc::new(SceneLanes::new(&script, &plan));
         self.shown = Some((script, plan));
@@ -282,14 +294,15 @@ impl SceneEditing {
         let file = (scene.texts.list().len() > 1).then(|| TextRef::Name(scene.name.to_string()));
         let edit = EditScript::between(&base, &text, Some(change.label));
         let edit = edit.map(|edit| EditScript { text: file, ..edit });
-        self.sent = Some(SentText { text, number: None });
         self.gesture = change.gesture.map(|gesture| (gesture, base));
-        Ok(match (edit, change.gesture) {
+        let change = match (edit, change.gesture) {
             (Some(edit), gesture) => Some(Change::Edit(Edit::EditScript(edit), gesture)),
             // A drag is back where it began.
             (None, Some(gesture)) => Some(Change::Cancel(gesture)),
             (None, None) => None,
-        })
+        };
+        self.proposed = change.is_some().then_some(text);
+        Ok(change)
     }
 
     /// Notes the gesture of a word that someone types.
@@ -300,22 +313,38 @@ impl SceneEditing {
     /// Notes the number of a change that was passed on.
     pub(in crate::panels) fn passed_on(&mut self, number: u64, change: &Change) {
         match change {
-            Change::Edit(Edit::EditScript(_), _) | Change::Cancel(_) => {
-                if let Some(sent) = self.sent.as_mut().filter(|sent| sent.number.is_none()) {
-                    sent.number = Some(number);
-                } else {
-                    // A gesture that something else cancelled: the next view has the text.
-                    self.sent = None;
+            Change::Edit(Edit::EditScript(_), gesture) => match (self.proposed.take(), &mut self.sent) {
+                (Some(text), sent) => *sent = Some(SentText { text, number }),
+                // Another movement of the same gesture, whose text was noted with the one before.
+                (None, Some(sent))
+                    if gesture.is_some() && *gesture == self.gesture.as_ref().map(|own| own.0) =>
+                {
+                    sent.number = number;
                 }
-            }
-            Change::Undo | Change::Redo | Change::GoTo(_) => self.sent = None,
+                (None, sent) => *sent = None,
+            },
+            // A gesture that something else cancelled has no text: the next view has it.
+            Change::Cancel(_) => self.sent = self.proposed.take().map(|text| SentText { text, number }),
+            Change::Undo | Change::Redo | Change::GoTo(_) => self.forget_texts(),
             Change::Edit(..) | Change::Release(_) => {}
+        }
+    }
+
+    /// Forgets a text whose change was dropped: its gesture is over.
+    pub(in crate::panels) fn dropped(&mut self, change: &Change) {
+        if matches!(change, Change::Edit(Edit::EditScript(_), _)) {
+            self.proposed = None;
         }
     }
 
     /// Forgets a text that the document refused.
     pub(in crate::panels) fn refused(&mut self) {
-        (self.sent, self.gesture) = (None, None);
+        self.gesture = None;
+        self.forget_texts();
+    }
+
+    fn forget_texts(&mut self) {
+        (self.proposed, self.sent) = (None, None);
     }
 }
 

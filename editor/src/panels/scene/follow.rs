@@ -4,7 +4,7 @@ use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 
 /// Returns the action of `new` that is `action` of `old`: the one with its id, otherwise the nearest one in the text that is
 /// the same apart from its times. `None` where it is gone.
-pub fn follow_action(old: &StageScript, action: usize, new: &StageScript) -> Option<usize> {
+pub(super) fn follow_action(old: &StageScript, action: usize, new: &StageScript) -> Option<usize> {
     let element = old.actions().get(action).map(|_| old.element(action))?;
     if let Some(id) = element.value("id") {
         return new.action_called(id);

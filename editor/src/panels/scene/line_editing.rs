@@ -1,5 +1,6 @@
 //! Drawn lines as they are edited: which one is selected, which are hidden, and how lines and paths are drawn.
 
+use super::line_eraser::LineEraser;
 use super::line_look::{line_looks, path_looks};
 use super::path_handles::path_handles;
 use crate::control::path_points::PathPoint;
@@ -16,11 +17,16 @@ pub struct LineEditing {
     /// Name of the selected line.
     selected: Option<Box<str>>,
     hidden: BTreeSet<Box<str>>,
-    /// Lines and paths as they are drawn, and the state they were made from.
+    /// Paths and lines as they are drawn.
     looks: Arc<[LineLook]>,
     /// Points that can be dragged.
     points: Arc<[PathPoint]>,
-    made_from: Option<LooksBase>,
+    /// The paths among the looks, and what they were made from.
+    paths: (Option<PathsBase>, Vec<LineLook>),
+    /// The lines among the looks, and what they were made from.
+    lines: (Option<LinesBase>, Vec<LineLook>),
+    /// The movement of the eraser in progress.
+    eraser: Option<LineEraser>,
 }
 
 /// The things that are selected, hidden and locked, by their ids.
@@ -53,25 +59,36 @@ impl MarkedThings<'_> {
     }
 }
 
-/// Everything that the drawing of lines is made from.
+/// Everything that the drawing of paths is made from.
 #[derive(Clone, Debug)]
-struct LooksBase {
-    lines: Option<Arc<DrawnLines>>,
+struct PathsBase {
     plan: Option<Arc<StagePlan>>,
     things: ThingMarks,
+}
+
+impl PathsBase {
+    /// Returns whether nothing has changed since. Allocates nothing.
+    fn is_same(&self, scene: Option<&SceneView>, things: MarkedThings<'_>) -> bool {
+        let of_plan = |plan: Option<&Arc<StagePlan>>| plan.map(Arc::as_ptr);
+        of_plan(self.plan.as_ref()) == of_plan(scene.and_then(|scene| scene.plan.as_ref()))
+            && things.is_same(&self.things)
+    }
+}
+
+/// Everything that the drawing of lines of a project is made from.
+#[derive(Clone, Debug)]
+struct LinesBase {
+    lines: Option<Arc<DrawnLines>>,
     selected: Option<Box<str>>,
     hidden: BTreeSet<Box<str>>,
 }
 
-impl LooksBase {
+impl LinesBase {
     /// Returns whether nothing has changed since. Allocates nothing.
-    fn is_same(&self, scene: Option<&SceneView>, things: MarkedThings<'_>, lines: &LineEditing) -> bool {
+    fn is_same(&self, scene: Option<&SceneView>, now: &LineEditing) -> bool {
         let of_lines = |lines: Option<&Arc<DrawnLines>>| lines.map(Arc::as_ptr);
-        let of_plan = |plan: Option<&Arc<StagePlan>>| plan.map(Arc::as_ptr);
         of_lines(self.lines.as_ref()) == of_lines(scene.and_then(|scene| scene.lines.as_ref()))
-            && of_plan(self.plan.as_ref()) == of_plan(scene.and_then(|scene| scene.plan.as_ref()))
-            && things.is_same(&self.things)
-            && (&self.selected, &self.hidden) == (&lines.selected, &lines.hidden)
+            && (&self.selected, &self.hidden) == (&now.selected, &now.hidden)
     }
 }
 
@@ -106,6 +123,10 @@ impl LineEditing {
         &self.points
     }
 
+    pub(in crate::panels) fn eraser_mut(&mut self) -> &mut Option<LineEraser> {
+        &mut self.eraser
+    }
+
     pub(in crate::panels) fn select(&mut self, line: Option<Box<str>>) {
         self.selected = line;
     }
@@ -118,31 +139,34 @@ impl LineEditing {
         }
     }
 
-    /// Adapts what is drawn to the scene and the selected things. Does nothing if nothing changed.
+    /// Adapts what is drawn to the scene and to the things that are selected, hidden and locked. Does nothing if nothing changed; a newer plan
+    /// leaves the lines of a project as they are.
     pub(super) fn update(&mut self, scene: Option<&SceneView>, things: MarkedThings<'_>) {
-        if self.made_from.as_ref().is_some_and(|base| base.is_same(scene, things, self)) {
+        let same_paths = self.paths.0.as_ref().is_some_and(|base| base.is_same(scene, things));
+        let same_lines = self.lines.0.as_ref().is_some_and(|base| base.is_same(scene, self));
+        if same_paths && same_lines {
             return;
         }
-        let base = LooksBase {
-            lines: scene.and_then(|scene| scene.lines.clone()),
-            plan: scene.and_then(|scene| scene.plan.clone()),
-            things: things.to_marks(),
-            selected: self.selected.clone(),
-            hidden: self.hidden.clone(),
-        };
-        let mut looks = Vec::new();
-        let script = scene.and_then(|scene| scene.script.as_ref());
-        if let (Some(script), Some(plan)) = (script, &base.plan) {
-            looks.extend(path_looks(script, plan, things));
+        let script = scene.and_then(|scene| scene.script.as_deref());
+        if !same_paths {
+            let plan = scene.and_then(|scene| scene.plan.clone());
+            let looks = script.zip(plan.as_deref()).map(|(script, plan)| path_looks(script, plan, things));
+            self.paths = (Some(PathsBase { plan, things: things.to_marks() }), looks.unwrap_or_default());
         }
-        if let Some(lines) = &base.lines {
-            looks.extend(line_looks(lines, |name| self.is_hidden(name), self.selected()));
+        if !same_lines {
+            let base = LinesBase {
+                lines: scene.and_then(|scene| scene.lines.clone()),
+                selected: self.selected.clone(),
+                hidden: self.hidden.clone(),
+            };
+            let lines = base.lines.as_ref();
+            let looks = lines.map(|lines| line_looks(lines, |name| self.is_hidden(name), self.selected()));
+            self.lines = (Some(base), looks.unwrap_or_default());
         }
         let editable = |id: &&str| !things.hidden.contains(*id) && !things.locked.contains(*id);
         let paths = things.selected.iter().map(|id| &**id).filter(editable);
         let line = self.selected().filter(|line| !self.is_hidden(line));
-        let script = script.map(|script| &**script);
-        self.points = path_handles(script, base.lines.as_deref(), paths, line);
-        (self.looks, self.made_from) = (looks.into(), Some(base));
+        self.points = path_handles(script, scene.and_then(|scene| scene.lines.as_deref()), paths, line);
+        self.looks = self.paths.1.iter().chain(&self.lines.1).cloned().collect();
     }
 }

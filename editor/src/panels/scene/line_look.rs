@@ -8,6 +8,7 @@ use dragonfly_anim::stage::{StagePath, StagePlan};
 use dragonfly_picture::LineLook;
 use dragonfly_picture::gizmo::LineInk;
 use glam::Vec3;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// Colors of paths, and of the selected path.
@@ -27,8 +28,9 @@ const WIDER: f32 = 2.0;
 const ARROWS: f64 = 0.5;
 const STEP: f64 = 0.05;
 
-/// Largest number of points, arrows or ticks of a path.
+/// Largest number of points, arrows or ticks of a path, and of points of all paths.
 const MOST: usize = 2_000;
+const MOST_POINTS: usize = 1_000_000;
 
 /// Time in which the direction at a tick is measured, seconds.
 const MOMENT: f64 = 0.05;
@@ -48,20 +50,24 @@ pub(super) fn line_looks(
 /// Returns the paths of a scene as they are drawn, without the hidden ones: arrows each half a meter, a tick at each second of those that follow
 /// it, a dot where a foot of theirs lands, and in red the parts that bend too much for their stride.
 pub(super) fn path_looks(script: &StageScript, plan: &StagePlan, things: MarkedThings<'_>) -> Vec<LineLook> {
-    let paths = plan.things().iter().filter_map(|thing| Some((thing, thing.path.as_ref()?)));
+    let selected: HashSet<&str> = things.selected.iter().map(|id| &**id).collect();
+    let seen = || plan.things().iter().filter(|thing| !things.hidden.contains(&thing.id));
+    let paths = || seen().filter_map(|thing| Some((thing, thing.path.as_ref()?)));
+    let most = (MOST_POINTS / paths().count().max(1)).clamp(2, MOST);
+    let all_followers = Follower::all(script, plan);
     let mut looks = Vec::new();
-    for (thing, path) in paths.filter(|(thing, _)| !things.hidden.contains(&thing.id)) {
-        let is_selected = things.selected.contains(&thing.id);
-        let followers = Follower::all(script, plan, &thing.id);
+    for (thing, path) in paths() {
+        let is_selected = selected.contains(&*thing.id);
+        let followers = all_followers.get(&*thing.id).map_or(&[][..], Vec::as_slice);
         let whole = LineLook {
-            points: along(path, STEP).iter().map(|[at, _]| *at).collect(),
+            points: along(path, STEP, most).iter().map(|[at, _]| *at).collect(),
             ink: LineInk::new(if is_selected { SELECTED } else { PATH }, WIDTH),
             opacity: if is_selected { 1.0 } else { 0.8 },
             shown: [None; 2],
             of: None,
-            arrows: along(path, ARROWS).into_iter().skip(1).collect(),
-            ticks: followers.iter().flat_map(|follower| follower.ticks(plan)).take(MOST).collect(),
-            dots: followers.iter().flat_map(|follower| follower.feet(plan)).take(MOST).collect(),
+            arrows: along(path, ARROWS, most).into_iter().skip(1).collect(),
+            ticks: followers.iter().flat_map(|follower| follower.ticks(plan, most)).take(most).collect(),
+            dots: followers.iter().flat_map(|follower| follower.feet(plan)).take(most).collect(),
         };
         let strides = followers.iter().filter_map(|own| plan.stride_on_path(own.thing, own.action));
         let least = LEAST_RADIUS * strides.fold(0.0, f64::max);
@@ -74,7 +80,7 @@ pub(super) fn path_looks(script: &StageScript, plan: &StagePlan, things: MarkedT
             dots: Arc::default(),
             ..whole.clone()
         };
-        let tight: Vec<LineLook> = tight_parts(path, least).into_iter().map(red).collect();
+        let tight: Vec<LineLook> = tight_parts(path, least, most).into_iter().map(red).collect();
         looks.push(whole);
         looks.extend(tight);
     }
@@ -82,12 +88,12 @@ pub(super) fn path_looks(script: &StageScript, plan: &StagePlan, things: MarkedT
 }
 
 /// Returns the parts of a path whose radius is below `least` meters, measured over half of that.
-fn tight_parts(path: &StagePath, least: f64) -> Vec<Vec<Vec3>> {
+fn tight_parts(path: &StagePath, least: f64, most: usize) -> Vec<Vec<Vec3>> {
     if least <= 0.0 {
         return Vec::new();
     }
     let mut parts: Vec<Vec<Vec3>> = Vec::new();
-    let count = ((path.length() / STEP).round().max(1.0) as usize).min(MOST);
+    let count = ((path.length() / STEP).round().max(1.0) as usize).min(most);
     let mut was_tight = false;
     for place in 0..=count {
         let distance = path.length() * place as f64 / count as f64;
@@ -106,8 +112,8 @@ fn tight_parts(path: &StagePath, least: f64) -> Vec<Vec<Vec3>> {
 }
 
 /// Returns places and directions on a path at about this distance from each other, its ends among them.
-fn along(path: &StagePath, step: f64) -> Vec<[Vec3; 2]> {
-    let count = ((path.length() / step).round().max(1.0) as usize).min(MOST);
+fn along(path: &StagePath, step: f64, most: usize) -> Vec<[Vec3; 2]> {
+    let count = ((path.length() / step).round().max(1.0) as usize).min(most);
     let at = |place: usize| path.at(path.length() * place as f64 / count as f64);
     (0..=count).map(at).map(|spot| [spot.position.as_vec3(), spot.direction.as_vec3()]).collect()
 }
@@ -121,34 +127,33 @@ struct Follower {
 }
 
 impl Follower {
-    /// Returns all actions that follow the path called `path`.
-    fn all(script: &StageScript, plan: &StagePlan, path: &str) -> Vec<Self> {
-        let mut found = Vec::new();
+    /// Returns the actions that follow each path, by the id of the path.
+    fn all<'a>(script: &'a StageScript, plan: &StagePlan) -> HashMap<&'a str, Vec<Self>> {
+        let mut found: HashMap<&str, Vec<Self>> = HashMap::new();
         for (action, times) in plan.schedule().times().iter().enumerate() {
             let element = script.element(action);
-            let thing = element.value("who").and_then(|who| plan.thing_called(who));
-            let follows = element.row.name == "move" && element.value("path") == Some(path);
-            found.extend(thing.filter(|_| follows).map(|thing| Self {
-                thing,
-                action,
-                times: [times.begin, times.end],
-            }));
+            if element.row.name != "move" {
+                continue;
+            }
+            let Some(path) = element.value("path") else { continue };
+            if let Some(thing) = element.value("who").and_then(|who| plan.thing_called(who)) {
+                let times = [times.begin, times.end];
+                found.entry(path).or_default().push(Self { thing, action, times });
+            }
         }
         found
     }
 
-    /// Returns where the thing is at each whole second since the start, and in which direction it goes.
-    fn ticks(&self, plan: &StagePlan) -> Vec<[Vec3; 2]> {
-        let [begin, end] = self.times;
-        let seconds = ((end - begin).seconds().floor().max(0.0) as usize).min(MOST);
-        let place = |time| plan.placement(self.thing, time).map(|place| place.position);
-        (1..=seconds)
-            .filter_map(|second| {
-                let time = begin + StageTime::from_seconds(second as f64);
-                let (from, at) = (place(time - StageTime::from_seconds(MOMENT))?, place(time)?);
-                Some([at.as_vec3(), (at - from).normalize_or_zero().as_vec3()])
-            })
-            .collect()
+    /// Returns where the thing is at each whole second since the start, at most at `most`, and in which direction it goes.
+    fn ticks(&self, plan: &StagePlan, most: usize) -> impl Iterator<Item = [Vec3; 2]> {
+        let ([begin, end], thing) = (self.times, self.thing);
+        let seconds = ((end - begin).seconds().floor().max(0.0) as usize).min(most);
+        let place = move |time| plan.placement(thing, time).map(|place| place.position);
+        (1..=seconds).filter_map(move |second| {
+            let time = begin + StageTime::from_seconds(second as f64);
+            let (from, at) = (place(time - StageTime::from_seconds(MOMENT))?, place(time)?);
+            Some([at.as_vec3(), (at - from).normalize_or_zero().as_vec3()])
+        })
     }
 
     /// Returns where its feet land.

@@ -82,21 +82,23 @@ fn stem(model: &str) -> &str {
     name.split_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// Returns the text with a new thing after the last one of its kind, and the id of the thing.
+/// Returns the text with a new thing after the last one of its kind, and the id of the thing. `script` is the one that has the text, or from
+/// which it was made.
 ///
 /// # Errors
 ///
 /// The result would be no script.
-pub fn new_thing_text(text: &Arc<str>, thing: &NewThing) -> Result<(String, Box<str>), GestureRefusal> {
-    let refused = |errors: &[dragonfly_anim::stage::script::ScriptError]| {
-        GestureRefusal(errors.first().map_or(String::new(), |error| error.text()))
-    };
-    let mut tree = ScriptTree::read(Arc::clone(text)).map_err(|errors| refused(&errors))?;
+pub fn new_thing_text(
+    script: &StageScript,
+    text: &Arc<str>,
+    thing: &NewThing,
+) -> Result<(String, Box<str>), GestureRefusal> {
+    let mut tree = ScriptTree::read(Arc::clone(text))?;
     if !tree.elements().iter().any(|element| element.row.name == "cast") {
         let with_cast = insert(&tree, ElementPlace::First(0), &NewElement::new("cast"))
             .map(|splices| splices.apply(tree.text()))
             .unwrap_or_default();
-        tree = ScriptTree::read(with_cast).map_err(|errors| refused(&errors))?;
+        tree = ScriptTree::read(with_cast)?;
     }
     let element = thing.element(&tree);
     let kind = element.name();
@@ -105,7 +107,7 @@ pub fn new_thing_text(text: &Arc<str>, thing: &NewThing) -> Result<(String, Box<
     let last = tree.elements().iter().rposition(|element| element.parent == Some(cast));
     let place = of_kind(kind).or(last).map_or(ElementPlace::First(cast), ElementPlace::After);
     let new = insert(&tree, place, &element).map(|splices| splices.apply(tree.text())).unwrap_or_default();
-    let script = StageScript::read(new.as_str()).map_err(|errors| refused(&errors))?;
+    let script = script.reread(new.as_str())?;
     let ids = |script: &ScriptTree| -> Vec<Box<str>> {
         script.elements().iter().filter_map(|element| element.value("id")).map(Into::into).collect()
     };

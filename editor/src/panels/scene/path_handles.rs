@@ -33,7 +33,7 @@ pub(super) fn path_handles<'a>(
             }));
             continue;
         }
-        let element = script.things().find(|element| element.value("id") == Some(path));
+        let element = script.thing_element(path).map(|element| &script.tree().elements()[element]);
         let source =
             element.filter(|element| element.row.name == "path").and_then(|element| element.value("line"));
         let of_path = source

@@ -53,16 +53,12 @@ pub enum SceneRequest {
     Lock(Vec<Box<str>>, bool),
     /// Starts to rename a thing, or ends it.
     Rename(Option<Box<str>>),
-    /// Sets whether what follows in a sequence moves along.
-    Ripple(bool),
     /// Shows this part of time in the timeline; `None` shows all.
     Window(Option<TimeWindow>),
     /// Tells why a gesture was refused.
     Refused(String),
     /// Looks through a camera of the scene, or through the free one.
     Through(ThroughCamera),
-    /// Shows the scene again while one of its models is edited.
-    ShowScene,
     /// Opens the takes and bones of the model of a thing, in place.
     EditModel(Box<str>),
     /// A request about a drawn line.

@@ -2,6 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+/// The text of a file of lines before the first one.
+pub(in crate::panels) const NO_LINES: &str =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<lines version=\"1\">\n</lines>\n";
+
 /// Returns the script of a scene of two roles opposite each other, with two cameras and a sun. `models` are files relative to the
 /// folder of the script, `scale` is the factor from their lengths to meters, and `take` is what both play.
 pub fn duel_text(models: [&str; 2], scale: f64, take: Option<&str>) -> String {
@@ -18,7 +22,7 @@ pub fn duel_text(models: [&str; 2], scale: f64, take: Option<&str>) -> String {
             }
         }
         None => {
-            actions += "    <!-- drag takes from the list onto the timeline, or write <play who=\"anna\" take=\"…\"/> -->\n"
+            actions += "    <!-- add takes in the menu of a lane of the timeline, or write <play who=\"anna\" take=\"…\"/> -->\n"
         }
     }
     format!(
@@ -41,7 +45,7 @@ pub fn project_texts(script: &str, lines: &str) -> [String; 2] {
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<project version=\"1\">\n  <lines src=\"{lines}\"/>\n  \
              <script id=\"main\" src=\"{script}\"/>\n</project>\n"
         ),
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<lines version=\"1\">\n</lines>\n".to_owned(),
+        NO_LINES.to_owned(),
     ]
 }
 

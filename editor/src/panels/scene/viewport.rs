@@ -1,15 +1,20 @@
 //! The scene in the viewport: what is under the pointer, its things at the time shown, and a drag of them.
 
 use super::SceneBase;
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StagePlan, StageScene};
 use dragonfly_document::SceneView;
 use dragonfly_document::history::Gesture;
 use egui::Pos2;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// Distance between two clicks at the same place, points.
 const SAME: f32 = 4.0;
+
+/// Time without a movement after which the next turn of the wheel is another step.
+const PAUSE: Duration = Duration::from_millis(400);
 
 /// The state of the viewport of a scene; it contains nothing of the document.
 #[derive(Debug, Default)]
@@ -21,14 +26,18 @@ pub struct SceneViewport {
     /// Place and result of the last click.
     last: Option<(Pos2, Arc<str>)>,
     shown: Option<ShownThings>,
-    /// The script at the start of the drag in progress.
+    /// The script at the start of the drag in progress, its things, and what the drag has changed last.
     base: Option<SceneBase>,
+    base_shown: Option<ShownThings>,
+    written: Option<TextSplices>,
     /// The scene at the start of the drag of a point of a line.
     line_base: Option<Arc<SceneView>>,
     /// The heights at which things are on the ground, at the start of a drag.
-    heights: Option<Vec<Option<f32>>>,
+    heights: Option<Arc<[Option<f32>]>>,
     /// The gesture that moves a camera, which is one step.
     camera_drag: Option<Gesture>,
+    /// When the wheel or a panel moved the camera last; `None` while the viewport is dragged.
+    turned: Option<Instant>,
 }
 
 /// The things of a plan at one time.
@@ -57,6 +66,16 @@ impl SceneViewport {
         frames
     }
 
+    /// Returns whether the scene was framed with all its models.
+    pub(in crate::panels) fn is_framed(&self) -> bool {
+        self.is_framed
+    }
+
+    /// Notes that the scene is seen as it was before.
+    pub(in crate::panels) fn set_framed(&mut self) {
+        self.is_framed = true;
+    }
+
     /// Returns the thing that a click at `at` selects, of the things there, nearest first. Another click at the same place selects the
     /// next one in that order.
     pub(in crate::panels) fn clicked(&mut self, at: Pos2, things: &[Arc<str>]) -> Option<Arc<str>> {
@@ -78,15 +97,21 @@ impl SceneViewport {
 
     /// Returns the things of `plan` at `time`.
     pub(in crate::panels) fn things_at(&mut self, plan: &Arc<StagePlan>, time: StageTime) -> &StageScene {
-        let is_same = |shown: &ShownThings| Arc::ptr_eq(&shown.plan, plan);
-        let mut shown = match self.shown.take().filter(is_same) {
-            Some(shown) if shown.time == time => return &self.shown.insert(shown).scene,
-            Some(shown) => shown,
-            None => ShownThings { plan: Arc::clone(plan), time, scene: plan.new_scene() },
-        };
-        plan.scene_at(time, &mut shown.scene);
-        shown.time = time;
-        &self.shown.insert(shown).scene
+        things_at(&mut self.shown, plan, time)
+    }
+
+    /// Returns the things of the plan with which the drag in progress began.
+    pub(in crate::panels) fn base_things(&mut self, plan: &Arc<StagePlan>, time: StageTime) -> &StageScene {
+        things_at(&mut self.base_shown, plan, time)
+    }
+
+    /// Returns whether the drag in progress has not made these changes last, and notes them.
+    pub(in crate::panels) fn is_new(&mut self, splices: &TextSplices) -> bool {
+        let is_new = self.written.as_ref() != Some(splices);
+        if is_new {
+            self.written = Some(splices.clone());
+        }
+        is_new
     }
 
     /// Returns the camera of the shot at the time computed last, as a position in the cast.
@@ -101,7 +126,7 @@ impl SceneViewport {
 
     /// Sets the script at the start of a drag; `None` at its end.
     pub(in crate::panels) fn set_base(&mut self, base: Option<SceneBase>) {
-        self.base = base;
+        (self.base, self.base_shown, self.written) = (base, None, None);
     }
 
     /// Returns the scene at the start of the drag of a point of a line.
@@ -109,19 +134,25 @@ impl SceneViewport {
         self.line_base.as_ref()
     }
 
-    /// Sets the scene at the start of the drag of a point of a line; `None` at its end.
-    pub(in crate::panels) fn set_line_base(&mut self, scene: Option<Arc<SceneView>>) {
-        self.line_base = scene;
+    /// Sets the scene at the start of the drag of a point of a line.
+    pub(in crate::panels) fn set_line_base(&mut self, scene: Arc<SceneView>) {
+        self.line_base = Some(scene);
     }
 
     /// Returns the heights at which things are on the ground, meters, as they were at the start of the drag in progress.
-    pub(in crate::panels) fn heights(&self) -> Option<&[Option<f32>]> {
-        self.heights.as_deref()
+    pub(in crate::panels) fn heights(&self) -> Option<&Arc<[Option<f32>]>> {
+        self.heights.as_ref()
     }
 
-    /// Sets the heights at which things are on the ground; `None` at the end of a drag.
-    pub(in crate::panels) fn set_heights(&mut self, heights: Option<Vec<Option<f32>>>) {
-        self.heights = heights;
+    /// Sets the heights at which things are on the ground.
+    pub(in crate::panels) fn set_heights(&mut self, heights: Arc<[Option<f32>]>) {
+        self.heights = Some(heights);
+    }
+
+    /// Forgets everything of the drag in progress.
+    pub(in crate::panels) fn end_drag(&mut self) {
+        self.set_base(None);
+        (self.line_base, self.heights) = (None, None);
     }
 
     /// Returns the gesture that moves a camera.
@@ -129,12 +160,57 @@ impl SceneViewport {
         self.camera_drag
     }
 
-    pub(in crate::panels) fn set_camera_drag(&mut self, gesture: Option<Gesture>) {
-        self.camera_drag = gesture;
+    /// Begins or continues the gesture that moves a camera. `turned` is the time of a movement by the wheel or a panel, whose end no one
+    /// reports; `None` for a drag of the viewport.
+    pub(in crate::panels) fn move_camera(
+        &mut self,
+        gesture: Gesture,
+        base: SceneBase,
+        turned: Option<Instant>,
+    ) {
+        if self.camera_drag.replace(gesture) != Some(gesture) {
+            self.set_base(Some(base));
+        }
+        self.turned = turned;
+    }
+
+    /// Ends the gesture that moves a camera.
+    pub(in crate::panels) fn end_camera(&mut self) {
+        if self.camera_drag.take().is_some() {
+            self.turned = None;
+            self.set_base(None);
+        }
+    }
+
+    /// Returns whether a gesture is a camera moved by the wheel or a panel: it has no end that could be cancelled.
+    pub fn is_turning(&self, gesture: Option<Gesture>) -> bool {
+        self.turned.is_some() && gesture.is_some() && self.camera_drag == gesture
+    }
+
+    /// Returns the time until a camera that the wheel or a panel moved counts as released; `None` where there is none.
+    pub(in crate::panels) fn turn_left(&self, now: Instant) -> Option<Duration> {
+        Some(PAUSE.saturating_sub(now.saturating_duration_since(self.turned?)))
     }
 
     /// Forgets everything: another document is shown.
     pub(in crate::panels) fn reset(&mut self) {
         *self = Self::default();
     }
+}
+
+/// Returns the things of `plan` at `time`, which are computed where `shown` has others.
+fn things_at<'a>(
+    shown: &'a mut Option<ShownThings>,
+    plan: &Arc<StagePlan>,
+    time: StageTime,
+) -> &'a StageScene {
+    let is_same = |shown: &ShownThings| Arc::ptr_eq(&shown.plan, plan);
+    let mut now = match shown.take().filter(is_same) {
+        Some(now) if now.time == time => return &shown.insert(now).scene,
+        Some(now) => now,
+        None => ShownThings { plan: Arc::clone(plan), time, scene: plan.new_scene() },
+    };
+    plan.scene_at(time, &mut now.scene);
+    now.time = time;
+    &shown.insert(now).scene
 }

@@ -7,11 +7,9 @@ use super::report::JointProperty;
 use crate::data::{Channel, Interpolation, Take};
 use crate::format::bvh::motion::time_of;
 use crate::format::losses::Losses;
+use crate::frames::OFF_FRAME;
 use crate::sample::{Value, sample_channel};
 use glam::{Quat, Vec3};
-
-/// Share of a frame by which a key may be off its frame.
-const OFF_FRAME: f64 = 0.02;
 
 /// An edited channel, and the opened one.
 pub(super) struct ChannelPair<'a, T> {

@@ -8,17 +8,20 @@ use super::super::context::PanelContext;
 use super::super::menu::item;
 use super::super::panel::PanelSubject;
 use super::super::request::Request;
-use super::super::style::GRID;
+use super::super::style::{GRID, ROW};
 use super::super::{Panel, PanelPlace, widgets};
 use super::SceneRequest;
 use crate::panels::commands::Id;
 use crate::panels::icons::Icon;
 use crate::panels::search_field;
 use crate::panels::theme::Theme;
+use dragonfly_anim::stage::script::StageScript;
+use dragonfly_document::SceneView;
 use dragonfly_document::bones::Choice;
-use egui::{RichText, ScrollArea, Ui};
+use egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
 use lines::LineRows;
 use name_field::NameField;
+use std::sync::Arc;
 
 /// The kinds of things with their headings, in the order in which they are listed.
 const KINDS: [(&str, &str); 7] = [
@@ -42,6 +45,7 @@ pub struct Outliner {
     lines: LineRows,
     /// The thing from which Shift selects.
     from: Option<Box<str>>,
+    listed: ListedThings,
 }
 
 impl Panel for Outliner {
@@ -81,52 +85,111 @@ impl Panel for Outliner {
         } else {
             self.query.clear();
         }
-        let query = self.query.trim().to_lowercase();
-        let things: Vec<(&'static str, &str)> =
-            script.things().map(|thing| (thing.row.name, thing.value("id").unwrap_or_default())).collect();
-        let listed: Vec<(&'static str, &str)> = KINDS
-            .iter()
-            .flat_map(|(kind, _)| things.iter().filter(move |(own, _)| own == kind))
-            .filter(|(_, id)| query.is_empty() || id.to_lowercase().contains(&query))
-            .copied()
-            .collect();
-        if listed.is_empty() {
+        self.listed.update(script, self.query.trim());
+        if self.listed.things.is_empty() {
             return widgets::empty(ui, "No thing matches the search", "");
         }
         ui.spacing_mut().item_spacing.y = 0.0;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            let mut heading = "";
-            for &(kind, id) in &listed {
-                if kind != heading {
-                    heading = kind;
-                    let title = KINDS.iter().find(|(own, _)| *own == kind).map_or("", |(_, title)| title);
-                    ui.add_space(GRID);
-                    ui.horizontal(|ui| {
-                        ui.add_space(3.0 * GRID);
-                        ui.label(RichText::new(title).small().color(Theme::of(ui).weak));
-                    });
-                }
-                if context.scene_editing.renaming() == Some(id) {
-                    self.name.show(ui, context, id, requests);
-                } else if row::show(ui, context, scene, (kind, id), requests) {
-                    self.choose(ui, id, &listed, requests);
-                }
+            let listed = std::mem::take(&mut self.listed);
+            for group in listed.things.chunk_by(|one, other| one.0 == other.0) {
+                let kind = KINDS.get(group[0].0).map_or("", |(_, title)| title);
+                ui.add_space(GRID);
+                ui.horizontal(|ui| {
+                    ui.add_space(3.0 * GRID);
+                    ui.label(RichText::new(kind).small().color(Theme::of(ui).weak));
+                });
+                self.group(ui, context, scene, (script, &listed, group), requests);
             }
+            self.listed = listed;
             self.lines.show(ui, context, requests);
             ui.add_space(2.0 * GRID);
         });
     }
 }
 
+/// The things that are listed, in the order of the list.
+#[derive(Debug, Default)]
+struct ListedThings {
+    script: Option<Arc<StageScript>>,
+    query: String,
+    /// The position of the kind in [`KINDS`], and of the element in the script.
+    things: Vec<(usize, usize)>,
+}
+
+impl ListedThings {
+    /// Lists the things whose names contain `query`. Does nothing if nothing changed.
+    fn update(&mut self, script: &Arc<StageScript>, query: &str) {
+        if self.script.as_ref().is_some_and(|own| Arc::ptr_eq(own, script)) && self.query == query {
+            return;
+        }
+        let wanted = query.to_lowercase();
+        self.things.clear();
+        for element in script.thing_elements() {
+            let own = &script.tree().elements()[element];
+            let id = own.value("id").unwrap_or_default();
+            let kind = KINDS.iter().position(|(kind, _)| *kind == own.row.name);
+            if let Some(kind) = kind.filter(|_| wanted.is_empty() || id.to_lowercase().contains(&wanted)) {
+                self.things.push((kind, element));
+            }
+        }
+        self.things.sort_by_key(|(kind, _)| *kind);
+        (self.script, self.query) = (Some(Arc::clone(script)), query.to_owned());
+    }
+}
+
+/// Returns the id of a listed thing.
+fn id_of(script: &StageScript, (_, element): (usize, usize)) -> &str {
+    script.tree().elements()[element].value("id").unwrap_or_default()
+}
+
 impl Outliner {
+    /// Draws the rows of one kind that are in sight, and leaves room for the others.
+    fn group(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        scene: &SceneView,
+        (script, listed, group): (&StageScript, &ListedThings, &[(usize, usize)]),
+        requests: &mut Vec<Request>,
+    ) {
+        let (top, clip) = (ui.cursor().top(), ui.clip_rect());
+        let row_at = |y: f32| (((y - top) / ROW).max(0.0) as usize).min(group.len());
+        let (first, last) = (row_at(clip.top()), (row_at(clip.bottom()) + 1).min(group.len()));
+        let renaming = context.scene_editing.renaming();
+        let renamed = renaming.and_then(|id| group.iter().position(|own| id_of(script, *own) == id));
+        if let Some(row) = renamed.filter(|row| !(first..last).contains(row)) {
+            let corner = pos2(ui.cursor().left(), top + row as f32 * ROW);
+            ui.scroll_to_rect(Rect::from_min_size(corner, vec2(1.0, ROW)), None);
+        }
+        ui.add_space(first as f32 * ROW);
+        for own in &group[first.min(last)..last] {
+            let id = id_of(script, *own);
+            if renaming == Some(id) {
+                self.name.show(ui, context, id, requests);
+            } else if row::show(ui, context, scene, &script.tree().elements()[own.1], requests) {
+                self.choose(ui, script, id, listed, requests);
+            }
+        }
+        ui.add_space((group.len() - last) as f32 * ROW);
+    }
+
     /// Selects by a click: with Ctrl it toggles, with Shift it adds all rows up to this one.
-    fn choose(&mut self, ui: &Ui, id: &str, listed: &[(&'static str, &str)], requests: &mut Vec<Request>) {
+    fn choose(
+        &mut self,
+        ui: &Ui,
+        script: &StageScript,
+        id: &str,
+        listed: &ListedThings,
+        requests: &mut Vec<Request>,
+    ) {
         let modifiers = ui.input(|input| input.modifiers);
-        let place = |id: &str| listed.iter().position(|(_, other)| *other == id);
+        let listed = &listed.things;
+        let place = |id: &str| listed.iter().position(|own| id_of(script, *own) == id);
         let range = self.from.as_deref().and_then(place).zip(place(id)).filter(|_| modifiers.shift);
         let (things, choice) = match range {
             Some((from, to)) => {
-                let between = listed[from.min(to)..=from.max(to)].iter().map(|(_, id)| *id);
+                let between = listed[from.min(to)..=from.max(to)].iter().map(|own| id_of(script, *own));
                 // The one that was clicked becomes the active one.
                 let mut things: Vec<Box<str>> =
                     between.filter(|other| *other != id).map(Into::into).collect();

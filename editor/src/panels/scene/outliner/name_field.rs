@@ -124,8 +124,7 @@ fn renamed(context: &PanelContext<'_>, thing: &str, name: &str) -> SceneRequest 
         Err(refusal) => return SceneRequest::Refused(refusal.to_string()),
     };
     let tree = base.script.tree();
-    let element = tree.elements().iter().position(|element| element.value("id") == Some(thing));
-    match element.and_then(|element| rename(tree, element, name)) {
+    match base.script.thing_element(thing).and_then(|element| rename(tree, element, name)) {
         Some(splices) => SceneRequest::Text(ScriptChange {
             from: std::sync::Arc::clone(tree.text()),
             text: splices.apply(tree.text()),

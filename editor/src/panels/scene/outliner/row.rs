@@ -10,6 +10,7 @@ use crate::panels::scene::thing_icon::icon;
 use crate::panels::style::ROW;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
+use dragonfly_anim::stage::script::ScriptElement;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{SceneModel, SceneView};
 use egui::accesskit::Role;
@@ -20,10 +21,11 @@ pub(super) fn show(
     ui: &mut Ui,
     context: &PanelContext<'_>,
     scene: &SceneView,
-    (kind, id): (&'static str, &str),
+    thing: &ScriptElement,
     requests: &mut Vec<Request>,
 ) -> bool {
     let (theme, editing) = (Theme::of(ui), context.scene_editing);
+    let (kind, id) = (thing.row.name, thing.value("id").unwrap_or_default());
     let is_selected = editing.is_selected(id);
     let (rect, response) = widgets::row(ui, &format!("{id}, {kind}"), is_selected, false);
     let mark = Rect::from_center_size(pos2(rect.left() + 22.0, rect.center().y), vec2(16.0, 16.0));
@@ -37,7 +39,8 @@ pub(super) fn show(
         Rect::from_min_max(pos2(rect.left() + 36.0, rect.top()), pos2(rect.right() - 54.0, rect.bottom()));
     let shown = widgets::cut_in_middle(ui, id, text.width(), &TextStyle::Body);
     let end = widgets::text_in(ui, text, &shown, &TextStyle::Body, color);
-    let state = model_state(scene, id);
+    let model = thing.value("model").and_then(|model| scene.models.get(model));
+    let state = model_state(model);
     if let Some((note, is_bad)) = &state
         && text.right() - end > 30.0
     {
@@ -85,7 +88,9 @@ pub(super) fn show(
     if response.secondary_clicked() && !is_selected {
         requests.push(Request::Scene(SceneRequest::SelectThings(vec![id.into()], Choice::Replace)));
     }
-    response.on_hover_text(hint(kind, id, state.as_ref().map(|(_, is_bad)| *is_bad), scene));
+    response.on_hover_ui(|ui| {
+        ui.label(hint(thing, model));
+    });
     clicked
 }
 
@@ -97,35 +102,28 @@ fn affected(context: &PanelContext<'_>, id: &str) -> Vec<Box<str>> {
     }
 }
 
-fn source<'a>(scene: &'a SceneView, id: &str) -> Option<&'a str> {
-    let things = scene.script.as_ref()?;
-    let own = things.things().find(|thing| thing.value("id") == Some(id))?;
-    own.value("model")
-}
-
-/// Returns a word about the model of a thing that is not there yet, and whether it will not come.
-fn model_state(scene: &SceneView, id: &str) -> Option<(&'static str, bool)> {
-    match scene.models.get(source(scene, id)?)? {
+/// Returns a word about a model that is not there yet, and whether it will not come.
+fn model_state(model: Option<&SceneModel>) -> Option<(&'static str, bool)> {
+    match model? {
         SceneModel::Loading => Some(("reading…", false)),
         SceneModel::Loaded(_) => None,
         SceneModel::Missing(_) => Some(("missing", true)),
     }
 }
 
-fn hint(kind: &str, id: &str, is_bad: Option<bool>, scene: &SceneView) -> String {
-    let model = source(scene, id).map(|source| format!("\n{source}")).unwrap_or_default();
-    let reason = match source(scene, id).and_then(|source| scene.models.get(source)) {
-        Some(SceneModel::Missing(reason)) if is_bad == Some(true) => {
-            format!("\n{}", widgets::shortened(reason))
-        }
-        _ => String::new(),
+fn hint(thing: &ScriptElement, model: Option<&SceneModel>) -> String {
+    let (kind, id) = (thing.row.name, thing.value("id").unwrap_or_default());
+    let source = thing.value("model").map(|source| format!("\n{source}")).unwrap_or_default();
+    let reason = match model {
+        Some(SceneModel::Missing(reason)) => format!("\n{}", widgets::shortened(reason)),
+        Some(SceneModel::Loading | SceneModel::Loaded(_)) | None => String::new(),
     };
     let action = if matches!(kind, "role" | "prop") {
         "\nDouble-click: edit its takes and bones"
     } else {
         "\nDouble-click: rename"
     };
-    format!("{kind} {id}{model}{reason}{action}")
+    format!("{kind} {id}{source}{reason}{action}")
 }
 
 fn menu(

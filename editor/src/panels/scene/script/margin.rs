@@ -85,7 +85,7 @@ pub(super) fn show(ui: &Ui, sheet: &MarginSheet<'_>) {
 /// Draws an error: a dot in the margin with its text, and a line under what is wrong.
 fn mark(ui: &Ui, sheet: &MarginSheet<'_>, error: &ScriptError, area: Rect) {
     let theme = Theme::of(ui);
-    let line = line_of(sheet.text, error.range.start);
+    let line = (error.place.line as usize).saturating_sub(1);
     let Some(row) = sheet.output.galley.rows.get(line) else { return };
     let top = sheet.output.galley_pos.y;
     let (from, to) = (top + row.min_y(), top + row.max_y());

@@ -25,6 +25,7 @@ use egui::{
 };
 use lines::{byte_of, characters_before, lines_of, moved_position};
 use popup::{SuggestionKey, SuggestionList};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
@@ -246,8 +247,14 @@ impl ScriptPanel {
     }
 
     fn suggest(&mut self, scene: &SceneView, at: usize, asked: bool) {
-        let files: Vec<&str> = scene.models.keys().map(String::as_str).collect();
-        let names = CompletionNames { plan: scene.plan.as_deref(), files: &files };
+        let models: Vec<&str> = scene.models.keys().map(String::as_str).collect();
+        let lines = scene.lines.as_ref().map_or(&[][..], |lines| lines.list());
+        let lines: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
+        let played = scene.plan.iter().flat_map(|plan| plan.sounds());
+        let sounds: BTreeSet<&str> = played.map(|sound| &*sound.source).collect();
+        let sounds = Vec::from_iter(sounds);
+        let names =
+            CompletionNames { plan: scene.plan.as_deref(), models: &models, lines: &lines, sounds: &sounds };
         let found = completions(&self.buffer, at, &names);
         // Unasked, a list appears only where something of the word is typed, or a tag or value begins.
         let begins = self.buffer.get(..at).is_some_and(|text| text.ends_with(['<', '"', '\'', '.', '/']));
@@ -289,14 +296,14 @@ impl ScriptPanel {
 /// Returns the bytes of what is selected elsewhere: the action, or the active thing; `None` while the text is another one than the script.
 fn selected_range(scene: &SceneView, context: &PanelContext<'_>) -> Option<Range<usize>> {
     let (script, editing) = (scene.script.as_ref()?, context.scene_editing);
-    if **script.tree().text() != **editing.text(scene) {
+    let (own, newest) = (script.tree().text(), editing.text(scene));
+    if !Arc::ptr_eq(own, newest) && **own != **newest {
         return None;
     }
     if let Some(action) = editing.action() {
         script.actions().get(action)?;
         return Some(script.element(action).range.clone());
     }
-    let thing = editing.things().last()?;
-    let element = script.things().find(|element| element.value("id") == Some(thing))?;
-    Some(element.range.clone())
+    let element = script.thing_element(editing.things().last()?)?;
+    Some(script.tree().elements()[element].range.clone())
 }

@@ -2,7 +2,7 @@
 
 use super::lane_layout::{SceneBarPart, SceneHit};
 use super::sheet::SceneSheet;
-use super::snap::{frame_at, snapped_time};
+use super::snap::snapped_time;
 use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, readout};
 use crate::panels::request::Request;
 use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
@@ -10,7 +10,7 @@ use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, SequenceOrder, move_clip, set_fade, set_speed, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
-use dragonfly_anim::stage::time::StageTime;
+use dragonfly_anim::stage::time::{StageRate, StageTime, TICKS_PER_SECOND};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::history::Gesture;
@@ -37,6 +37,10 @@ struct HeldBar {
     name: Box<str>,
     /// Whether something was sent.
     is_sent: bool,
+    /// The time to which the edge was brought last, with which keys.
+    asked: Option<(StageTime, bool, Followers)>,
+    /// Why it could not be brought there.
+    refused: Option<GestureRefusal>,
 }
 
 impl BarDragging {
@@ -159,6 +163,8 @@ fn begin(
         grabbed,
         name: lane.name.clone(),
         is_sent: false,
+        asked: None,
+        refused: None,
     }))
 }
 
@@ -185,27 +191,33 @@ impl HeldBar {
         let snaps = context.keys.snap() != input.modifiers.command;
         let edge = match snaps {
             true => snapped_time(edge, sheet.lanes, self.bar.action, context.scene_time(), reach, rate),
-            // The nearest hundredth of a frame, so that texts stay short.
-            false => {
-                frame_at(edge, rate)
-                    + StageTime::from_ticks((edge - frame_at(edge, rate)).ticks() / 7056 * 7056)
-            }
+            false => at_five_decimals(edge),
         };
         let edge = edge.max(StageTime::ZERO);
         let followers =
             if context.scene_editing.ripple() == input.ripple { Followers::Stay } else { Followers::Follow };
-        let (label, result) = self.gesture_to(edge, input.modifiers.alt, followers);
-        let pointer = egui::pos2(at.x, at.y);
-        match result {
-            Ok(text) => {
-                readout(ui, pointer, &self.amounts(edge, context.frame_rate));
-                self.is_sent = true;
-                let from = std::sync::Arc::clone(self.base.text());
-                let change = ScriptChange { from, text, label, gesture: Some(self.gesture) };
-                requests.push(Request::Scene(SceneRequest::Text(change)));
-            }
-            Err(refusal) => readout(ui, pointer, &refusal.to_string()),
+        // A movement within the same frame changes nothing.
+        if self.asked.replace((edge, input.modifiers.alt, followers))
+            != Some((edge, input.modifiers.alt, followers))
+        {
+            requests.extend(self.bring_to(edge, input.modifiers.alt, followers));
         }
+        let pointer = egui::pos2(at.x, at.y);
+        match &self.refused {
+            None => readout(ui, pointer, &self.amounts(edge, rate)),
+            Some(refusal) => readout(ui, pointer, &refusal.to_string()),
+        }
+    }
+
+    /// Returns the request that brings the dragged part to `edge`; `None` where it is refused.
+    fn bring_to(&mut self, edge: StageTime, alt: bool, followers: Followers) -> Option<Request> {
+        let (label, result) = self.gesture_to(edge, alt, followers);
+        let (text, refused) = result.map_or_else(|refusal| (None, Some(refusal)), |text| (Some(text), None));
+        self.refused = refused;
+        let from = std::sync::Arc::clone(self.base.text());
+        let change = ScriptChange { from, text: text?, label, gesture: Some(self.gesture) };
+        self.is_sent = true;
+        Some(Request::Scene(SceneRequest::Text(change)))
     }
 
     /// Returns the label and the text of the gesture that brings the dragged part to `edge`.
@@ -246,9 +258,8 @@ impl HeldBar {
     }
 
     /// Returns the numbers of the drag.
-    fn amounts(&self, edge: StageTime, frame_rate: u32) -> String {
-        let seconds = edge.seconds();
-        let frame = (seconds * f64::from(frame_rate)).round();
+    fn amounts(&self, edge: StageTime, rate: StageRate) -> String {
+        let (seconds, frame) = (edge.seconds(), rate.nearest_frame(edge));
         let what = match self.part {
             SceneBarPart::Body => format!(
                 "begins at {seconds:.3} s, frame {frame}, {:+.3} s",
@@ -270,4 +281,10 @@ impl HeldBar {
         };
         format!("{} · {}: {what}", self.name, self.bar.label)
     }
+}
+
+/// Returns the nearest time that a script writes with five decimals.
+fn at_five_decimals(time: StageTime) -> StageTime {
+    const STEP: i64 = TICKS_PER_SECOND / 100_000;
+    StageTime::from_ticks((time.ticks() + STEP / 2).div_euclid(STEP) * STEP)
 }

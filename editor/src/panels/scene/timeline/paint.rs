@@ -28,7 +28,7 @@ pub(super) fn lanes(painter: &Painter, sheet: &SceneSheet<'_>) {
         painter.hline(rect.x_range(), bottom + 0.5, Stroke::new(1.0, theme.line.gamma_multiply(0.6)));
     }
     let seconds = sheet.scale.ruler();
-    for tick in seconds.ticks(sheet.context.frame_rate).into_iter().filter(|tick| tick.major) {
+    for tick in seconds.ticks(sheet.context.frames_per_second()).into_iter().filter(|tick| tick.major) {
         let x = painter.round_to_pixel_center(sheet.scale.x_of(tick.time));
         painter.vline(x, canvas.y_range(), Stroke::new(1.0, theme.line.gamma_multiply(0.45)));
     }

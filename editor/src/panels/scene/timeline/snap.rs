@@ -28,5 +28,5 @@ pub fn snapped_time(
 
 /// Returns the time of the nearest frame.
 pub(super) fn frame_at(time: StageTime, rate: StageRate) -> StageTime {
-    rate.frame((time.seconds() * rate.per_second()).round() as i64)
+    rate.frame(rate.nearest_frame(time))
 }

@@ -1,0 +1,23 @@
+//! A scene that was left.
+
+use super::SceneEditing;
+use dragonfly_picture::ThroughCamera;
+use dragonfly_picture::camera::Camera;
+use std::path::PathBuf;
+
+/// The state of the panels when a scene was left. It is kept when its file is read again, and while one of its models is edited.
+#[derive(Debug)]
+pub struct LeftScene {
+    /// The file of the scene.
+    pub path: PathBuf,
+    /// Selected, hidden and locked things, the part of time that is shown.
+    pub editing: SceneEditing,
+    /// Time of the playhead, seconds.
+    pub time: f32,
+    /// Whether it was playing.
+    pub is_playing: bool,
+    /// The free camera, if the scene had been framed.
+    pub camera: Option<Camera>,
+    /// The camera through which the viewport looked.
+    pub through: ThroughCamera,
+}

@@ -1,0 +1,116 @@
+//! The eraser of drawn lines: what it has touched since the button was pressed.
+
+use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
+use dragonfly_anim::stage::time::StageTime;
+use dragonfly_picture::gizmo::GizmoView;
+use glam::DVec2;
+use std::sync::Arc;
+
+/// Distance from the pointer within which a line is erased, points.
+const REACH: f64 = 7.0;
+
+/// A movement of the eraser: the lines of one file, as the viewport shows them.
+#[derive(Clone, Debug)]
+pub struct LineEraser {
+    lines: Arc<DrawnLines>,
+    view: GizmoView,
+    /// The last position of the pointer, points from the top left of the viewport.
+    at: DVec2,
+    left: Vec<ShownLine>,
+    hits: Vec<usize>,
+}
+
+/// A line that can be erased, in points from the top left of the viewport.
+#[derive(Clone, Debug)]
+struct ShownLine {
+    index: usize,
+    /// Its points; `None` for those that are not in front of the camera.
+    points: Vec<Option<DVec2>>,
+    /// The box around them; `None` where none is in front of the camera.
+    around: Option<[DVec2; 2]>,
+}
+
+impl LineEraser {
+    /// Begins at a position. Lines that move with a thing are elsewhere and stay, and so do the hidden ones.
+    pub(in crate::panels) fn new(
+        lines: Arc<DrawnLines>,
+        is_hidden: impl Fn(usize, &DrawnLine) -> bool,
+        view: GizmoView,
+        at: DVec2,
+    ) -> Self {
+        let all = lines.list().iter().enumerate();
+        let fixed = all.filter(|(_, line)| line.of.as_deref().is_none_or(str::is_empty));
+        let seen = fixed.filter(|(index, line)| !is_hidden(*index, line));
+        let left = seen.map(|(index, line)| ShownLine::new(index, line, &view)).collect();
+        Self { lines, view, at, left, hits: Vec::new() }
+    }
+
+    /// Moves to a position. Lines that are shown at `time` and near the way there are touched.
+    pub(in crate::panels) fn move_to(&mut self, at: DVec2, view: &GizmoView, time: StageTime) {
+        if self.view != *view {
+            self.view = *view;
+            for line in &mut self.left {
+                *line = ShownLine::new(line.index, &self.lines.list()[line.index], view);
+            }
+        }
+        let way = [std::mem::replace(&mut self.at, at), at];
+        let (lines, hits) = (&self.lines, &mut self.hits);
+        self.left.retain(|line| {
+            let is_hit = is_shown(&lines.list()[line.index], time) && line.is_near(way);
+            if is_hit {
+                hits.push(line.index);
+            }
+            !is_hit
+        });
+    }
+
+    /// Returns the lines of the file, and the positions of those that were touched.
+    pub(in crate::panels) fn hits(&self) -> (&Arc<DrawnLines>, &[usize]) {
+        (&self.lines, &self.hits)
+    }
+}
+
+fn is_shown(line: &DrawnLine, time: StageTime) -> bool {
+    line.shown[0].is_none_or(|from| time >= from) && line.shown[1].is_none_or(|to| time < to)
+}
+
+impl ShownLine {
+    fn new(index: usize, line: &DrawnLine, view: &GizmoView) -> Self {
+        let points: Vec<Option<DVec2>> =
+            line.samples().points().iter().map(|point| view.to_screen(*point)).collect();
+        let around = points.iter().flatten().fold(None, |around: Option<[DVec2; 2]>, &at| {
+            Some(around.map_or([at; 2], |[min, max]| [min.min(at), max.max(at)]))
+        });
+        Self { index, points, around }
+    }
+
+    fn is_near(&self, way: [DVec2; 2]) -> bool {
+        let [from, to] = way;
+        let is_beside = |[min, max]: [DVec2; 2]| {
+            (from.min(to) - REACH).cmple(max).all() && (from.max(to) + REACH).cmpge(min).all()
+        };
+        self.around.is_some_and(is_beside)
+            && self.points.windows(2).any(|pair| match *pair {
+                [Some(start), Some(end)] => distance([start, end], way) <= REACH,
+                _ => false,
+            })
+    }
+}
+
+/// Returns the least distance between two straight pieces.
+fn distance(one: [DVec2; 2], other: [DVec2; 2]) -> f64 {
+    let side = |[from, to]: [DVec2; 2], at: DVec2| (to - from).perp_dot(at - from);
+    let is_between = |piece, ends: [DVec2; 2]| side(piece, ends[0]) * side(piece, ends[1]) < 0.0;
+    if is_between(one, other) && is_between(other, one) {
+        return 0.0;
+    }
+    let ends = other.map(|at| to_piece(at, one)).into_iter().chain(one.map(|at| to_piece(at, other)));
+    ends.fold(f64::INFINITY, f64::min)
+}
+
+fn to_piece(at: DVec2, [from, to]: [DVec2; 2]) -> f64 {
+    let along = to - from;
+    let square = along.length_squared();
+    let share = if square > 0.0 { ((at - from).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    at.distance(from + along * share)
+}
