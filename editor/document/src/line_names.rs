@@ -47,8 +47,8 @@ pub fn paths_of_renamed_line(
 /// Returns the replacements by which all paths along a line follow it under its new name; `None` where there are none.
 fn renamed(tree: &ScriptTree, old: &str, new: &str) -> Option<TextSplices> {
     let elements = tree.elements().iter().enumerate();
-    let paths =
-        elements.filter(|(_, element)| element.row.name == "path" && element.value("line") == Some(old));
+    let paths = elements
+        .filter(|(_, own)| !own.is_shared && own.row.name == "path" && own.value("line") == Some(old));
     let splices: Option<Vec<TextSplices>> =
         paths.map(|(element, _)| set_attribute(tree, element, "line", new)).collect();
     let list: Vec<_> = splices?.iter().flat_map(|splices| splices.list().to_vec()).collect();
