@@ -144,7 +144,7 @@ fn wrong_orders_for_images_of_scenes_are_refused_with_what_there_is() {
     refused(&["--frames", "0..1", "--time", "1", "-o", image], "cannot be used with");
     let model = script.with_file_name("models").join("knife.gltf");
     let outcome = run(["render", text(&model), "--camera", "wide", "-o", image]).expect(2);
-    assert!(outcome.stderr.contains("has to be the script of a scene"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("has to be a scene"), "{}", outcome.stderr);
 }
 
 #[test]

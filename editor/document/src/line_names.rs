@@ -2,7 +2,7 @@
 
 use super::SceneView;
 use super::edit::{EditScript, TextRef};
-use dragonfly_anim::stage::script::{ScriptElement, ScriptTree, StageScript};
+use dragonfly_anim::stage::script::{ScriptTree, StageScript};
 use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
 use std::sync::Arc;
 
@@ -47,11 +47,8 @@ pub fn paths_of_renamed_line(
 /// Returns the replacements by which all paths along a line follow it under its new name; `None` where there are none.
 fn renamed(tree: &ScriptTree, old: &str, new: &str) -> Option<TextSplices> {
     let elements = tree.elements().iter().enumerate();
-    // The paths of the project are in the trees of its scripts too, without a place in their texts.
-    let is_along = |element: &ScriptElement| {
-        !element.is_shared && element.row.name == "path" && element.value("line") == Some(old)
-    };
-    let paths = elements.filter(|(_, element)| is_along(element));
+    let paths = elements
+        .filter(|(_, own)| !own.is_shared && own.row.name == "path" && own.value("line") == Some(old));
     let splices: Option<Vec<TextSplices>> =
         paths.map(|(element, _)| set_attribute(tree, element, "line", new)).collect();
     let list: Vec<_> = splices?.iter().flat_map(|splices| splices.list().to_vec()).collect();

@@ -35,13 +35,13 @@ fn a_file_of_very_many_curves_is_refused_and_a_long_line_needs_little_memory() {
 }
 
 /// Returns a project of many models, with clips that name `of(number)`.
-fn project(models: usize, clips: usize, of: impl Fn(usize) -> String) -> String {
+fn project(models: usize, edits: usize, of: impl Fn(usize) -> String) -> String {
     let mut text = "<project version=\"1\"><models>\n".to_owned();
     for at in 0..models {
         let _ = writeln!(text, "<model id=\"m{at}\" src=\"m{at}.glb\"/>");
     }
-    for at in 0..clips {
-        let _ = writeln!(text, "<clips onto=\"{}\" src=\"c{at}.glb\"/>", of(at));
+    for at in 0..edits {
+        let _ = writeln!(text, "<edits of=\"{}\" src=\"c{at}.jsonl\"/>", of(at));
     }
     text + "</models></project>"
 }
