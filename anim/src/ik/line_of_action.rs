@@ -67,7 +67,7 @@ pub fn line_of_action(
     let bones: Vec<DVec3> = joints.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let flat: Vec<f64> = bones.iter().map(|bone| plane.flat(*bone).length()).collect();
     let total: f64 = flat.iter().sum();
-    let stroke = Stroke::new(line.stroke.iter().map(|point| plane.flat(point.as_dvec3())));
+    let stroke = StrokeCourse::new(line.stroke.iter().map(|point| plane.flat(point.as_dvec3())));
     let (Some(first), Some(last)) = (joints.first(), joints.last()) else { return Err(wrong) };
     let stroke =
         stroke.filter(|_| total > 0.0).ok_or(wrong)?.towards([plane.flat(*first), plane.flat(*last)]);
@@ -161,13 +161,13 @@ impl ViewPlane {
 }
 
 /// A stroke in the view plane, by its length.
-struct Stroke {
+struct StrokeCourse {
     points: Vec<DVec2>,
     /// Length from the start to each point.
     lengths: Vec<f64>,
 }
 
-impl Stroke {
+impl StrokeCourse {
     /// Returns the stroke through points; `None` for one without length, or with a point that is not finite.
     fn new(points: impl Iterator<Item = DVec2>) -> Option<Self> {
         let mut points: Vec<DVec2> = points.collect();

@@ -79,7 +79,7 @@ impl RunningSave {
         order: SaveOrder,
         failed: fn(NotSaved) -> SaveStage,
         work: impl FnOnce() -> SaveStage + Send + 'static,
-    ) -> Result<Self, (SaveOrder, NotSaved)> {
+    ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
         let (ended, steps) = flume::bounded(1);
         let panicked = ended.clone();
         let job = Job::start(
@@ -98,7 +98,10 @@ impl RunningSave {
         );
         match job {
             Ok(job) => Ok(Self { order, ticket, steps, _job: job }),
-            Err(error) => Err((order, NotSaved::Failed(format!("the save could not be started: {error}")))),
+            Err(error) => {
+                let reason = NotSaved::Failed(format!("the save could not be started: {error}"));
+                Err(Box::new((order, reason)))
+            }
         }
     }
 
@@ -107,7 +110,7 @@ impl RunningSave {
         ticket: u64,
         order: SaveOrder,
         input: SaveInput,
-    ) -> Result<Self, (SaveOrder, NotSaved)> {
+    ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
         let work = move || SaveStage::Prepared(prepare(input).map(Box::new).map_err(NotSaved::Failed));
         Self::start(document, ticket, order, |reason| SaveStage::Prepared(Err(reason)), work)
     }
@@ -117,7 +120,7 @@ impl RunningSave {
         ticket: u64,
         order: SaveOrder,
         prepared: Box<PreparedSave>,
-    ) -> Result<Self, (SaveOrder, NotSaved)> {
+    ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
         let work = move || SaveStage::Written(prepared.write().map(Box::new).map_err(FailedSave::from));
         Self::start(document, ticket, order, |reason| SaveStage::Written(Err(reason.into())), work)
     }
@@ -164,10 +167,13 @@ impl Document {
         }
     }
 
-    fn go_on_saving(&mut self, step: Result<RunningSave, (SaveOrder, NotSaved)>, now: Instant) {
+    fn go_on_saving(&mut self, step: Result<RunningSave, Box<(SaveOrder, NotSaved)>>, now: Instant) {
         match step {
             Ok(running) => self.save = Some(running),
-            Err((order, reason)) => self.end_save(order, Err(reason.into()), now),
+            Err(failed) => {
+                let (order, reason) = *failed;
+                self.end_save(order, Err(reason.into()), now);
+            }
         }
     }
 

@@ -23,6 +23,7 @@ mod options;
 mod reference_loader;
 mod replies;
 mod scene_maker;
+mod scene_sound_answers;
 mod scene_sounds;
 mod signals;
 mod sound_loader;

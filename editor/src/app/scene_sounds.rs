@@ -1,13 +1,10 @@
 //! Reads the peaks of the sounds of a scene in jobs, one after the other.
 
-use super::interface::Interface;
 use crate::panels::State;
 use crate::panels::status::MessageSeverity;
 use dragonfly_document::{Cancel, SoundPeaks};
-use dragonfly_runtime::{Address, Context, Job, JobContext, Receiver};
-use std::cell::RefCell;
+use dragonfly_runtime::{Address, Job, JobContext};
 use std::path::Path;
-use std::rc::Rc;
 
 /// Reads the sounds that the script of the open scene names.
 #[derive(Debug, Default)]
@@ -75,17 +72,4 @@ fn peaks_below(folder: &Path, source: &str, cancel: &Cancel) -> Result<SoundPeak
         return Err(format!("{source} is outside of the folder of the scene"));
     }
     SoundPeaks::read(&file, cancel)
-}
-
-/// Passes the answers of the jobs on.
-pub(super) struct SceneSoundAnswers(pub Rc<RefCell<Interface>>);
-
-impl Receiver for SceneSoundAnswers {
-    type Message = SceneSoundAnswer;
-
-    fn receive(&mut self, answer: SceneSoundAnswer, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        interface.scene_sound_answered(answer);
-        interface.redraw();
-    }
 }

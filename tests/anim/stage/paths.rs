@@ -51,8 +51,12 @@ fn footprints_are_where_the_feet_stand() {
     assert!((plan.stride_on_path(0, action).unwrap() - stride).abs() < 1e-9);
     let prints = plan.footprints(0, action);
     let cycles = plan.things()[1].path.as_ref().unwrap().length() / stride;
-    let feet = model.feet().len() as f64;
-    assert!((prints.len() as f64 - feet * cycles).abs() < feet + 1.0, "{} in {cycles} cycles", prints.len());
+    let contacts = walk.contacts().len() as f64;
+    assert!(
+        (prints.len() as f64 - contacts * cycles).abs() < contacts + 1.0,
+        "{} in {cycles} cycles",
+        prints.len()
+    );
     assert!(prints.is_sorted_by_key(|print| print.time) && prints[0].time.seconds() >= 0.5);
     let mut compared = 0;
     for print in prints.iter().filter(|print| print.time.seconds() < plan.length().seconds() - 0.2) {
@@ -65,7 +69,7 @@ fn footprints_are_where_the_feet_stand() {
         assert_eq!(print.position.y, 0.0);
         compared += 1;
     }
-    assert!(compared > 4, "{compared}");
+    assert!(compared > 2, "{compared}");
     assert_eq!((plan.footprints(0, 1), plan.stride_on_path(9, action)), (Vec::new(), None));
 }
 

@@ -3,6 +3,7 @@
 use super::{playback, scene};
 use crate::panels::scene::LeftScene;
 use crate::panels::workspace::Workspace;
+use dragonfly_picture::between;
 
 /// Notes the state of the scene that is shown; `None` while a model is, and for a scene without a file.
 pub(super) fn leave(workspace: &Workspace) -> Option<LeftScene> {
@@ -33,6 +34,6 @@ pub(super) fn restore(left: LeftScene, workspace: &mut Workspace) {
     }
     workspace.camera.set_through(left.through);
     let (start, length) = workspace.read().scene_bounds().unwrap_or((0.0, f32::MAX));
-    playback::seek(workspace, left.time.clamp(start, start + length));
+    playback::seek(workspace, between(left.time, start, start + length));
     workspace.player.set_playing(left.is_playing, workspace.settings.speed, workspace.settings.repeat);
 }

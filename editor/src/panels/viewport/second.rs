@@ -6,6 +6,7 @@ use crate::panels::request::Request;
 use crate::panels::style;
 use crate::panels::theme::Theme;
 use dragonfly_picture::ThroughCamera;
+use dragonfly_picture::between;
 use egui::accesskit::Role;
 use egui::{Align2, CursorIcon, FontId, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
@@ -26,7 +27,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, context: &PanelContext<'_>, requests: &m
     let place = ui.scope_id().with("share of the second view");
     let share = ui.data(|data| data.get_temp::<f32>(place)).unwrap_or(0.5);
     let middle =
-        (rect.left() + rect.width() * (1.0 - share)).clamp(rect.left() + LEAST, rect.right() - LEAST);
+        between(rect.left() + rect.width() * (1.0 - share), rect.left() + LEAST, rect.right() - LEAST);
     let grip = Rect::from_center_size(pos2(middle, rect.center().y), vec2(GRIP, rect.height()));
     let response = ui.interact(grip, place, Sense::drag()).on_hover_cursor(CursorIcon::ResizeHorizontal);
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Width of the second view"));
