@@ -210,7 +210,7 @@ fn same_slot(
 ) -> Result<(), String> {
     for (a, b) in [(&a.result, &b.result), (a.shown(), b.shown())] {
         let b = in_old_order(b, old.skeleton(), new.skeleton(), a);
-        // The order of the meshes in a take means nothing, and a mesh that gets keys anew is the last.
+        // The order of the meshes in a take means nothing, and a mesh that gets keys again is the last.
         let morphs = |take: &Take| {
             let mut morphs = take.morphs.clone();
             morphs.sort_by_key(|track| track.instance);

@@ -27,7 +27,7 @@ fn a_checked_take_has_the_defects_that_the_command_line_reports() {
         _ => None,
     });
     assert!(Arc::ptr_eq(&checked.take, &take) && checked.findings == wanted);
-    // The thresholds beside the file: everything off but the limit of a joint that may not turn.
+    // The thresholds next to the file: everything off but the limit of a joint that may not turn.
     let off = LintRule::ALL.map(|rule| format!("\"{}\":null", rule.name()));
     let joints = r#""joints":{"b_Neck_04":{"ball":{"axis":"x","swing":0,"twist":[0,0]}}}"#;
     let rules = format!("{{{},\"joint_limit\":1,{joints}}}", off.join(","));

@@ -116,7 +116,7 @@ fn textures_are_written_beside_an_fbx_file_where_the_user_wants_them_and_listed_
 }
 
 #[test]
-fn an_edited_fbx_file_is_written_anew_and_an_unedited_one_keeps_its_bytes() {
+fn an_edited_fbx_file_is_replaced_as_a_whole_and_an_unedited_one_keeps_its_bytes() {
     let folder = Folder::new("fbx-edit");
     let cube = data("fbx/maya_blend_shape_cube_7700_binary.fbx");
     let (same, other) = (folder.join("same.fbx"), folder.join("other.fbx"));

@@ -77,7 +77,7 @@ fn the_source_of_a_take_stands_beside_the_model_while_the_dialog_is_open() {
     animator.harness.query_all_by_label("rests").last().expect("an entry").click();
     animator.steps(3);
     assert_eq!(marked(&animator), None, "nothing moves it");
-    // What is typed filters the menu, and Enter takes the first that is left.
+    // Typed letters filter the menu, and Enter takes the first that is left.
     let wanted = animator.harness.state().state.read().bone_name(7);
     click(&mut animator, &format!("The bone that moves {name}: rests"));
     animator.harness.event(egui::Event::Text(wanted));

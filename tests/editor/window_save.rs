@@ -186,7 +186,7 @@ fn a_file_changed_by_another_program_is_noticed_and_not_overwritten() {
 }
 
 #[test]
-fn an_fbx_file_is_written_anew_only_after_a_question_and_then_contains_the_edits() {
+fn an_fbx_file_is_replaced_only_after_a_question_and_then_contains_the_edits() {
     let _one = alone();
     let mut bench = Bench::new("window-fbx");
     let before = fs::read(data("fbx/maya_blend_shape_cube_7700_binary.fbx")).unwrap();
@@ -197,10 +197,10 @@ fn an_fbx_file_is_written_anew_only_after_a_question_and_then_contains_the_edits
     let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str()]);
     editor.window = screen.window("• Cube.fbx", SOON);
     control(&mut screen, key::S);
-    editor.wait_for_log("asked whether the whole file is to be written anew", 1, SOON);
+    editor.wait_for_log("asked whether the whole file is to be replaced", 1, SOON);
     screen.press(key::ESCAPE);
     control(&mut screen, key::S);
-    editor.wait_for_log("asked whether the whole file is to be written anew", 2, SOON);
+    editor.wait_for_log("asked whether the whole file is to be replaced", 2, SOON);
     assert!(fs::read(&bench.file).unwrap() == before, "nothing is written before the answer");
     screen.press_with(key::SHIFT, key::TAB);
     screen.press(key::ENTER);

@@ -128,7 +128,7 @@ impl Format {
         matches!(self.write, WriteSupport::Surgical(_))
     }
 
-    /// Returns whether saving loses what files of this format usually contain besides a model, see [`WriteSupport::Rewritten`].
+    /// Returns whether saving loses what files of this format usually contain in addition to a model, see [`WriteSupport::Rewritten`].
     pub fn is_rewritten(&self) -> bool {
         matches!(self.write, WriteSupport::Rewritten(_))
     }

@@ -59,7 +59,7 @@ pub(super) struct Open {
     pub(super) journal_writer: JournalWriter,
     /// Whether the user discarded the unsaved work.
     pub(super) unwanted: bool,
-    /// Whether the user decided to write the whole file anew.
+    /// Whether the user decided to replace the whole file.
     pub(super) is_rewritten: bool,
 }
 

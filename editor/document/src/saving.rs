@@ -39,7 +39,7 @@ pub struct SaveOrder {
     pub to: SaveTo,
     /// Overwrites another file, or changes of another program: the user has decided.
     pub anyway: bool,
-    /// Writes the whole file anew where the format needs it, see [`Format::is_rewritten`](dragonfly_anim::format::Format::is_rewritten): the user has decided.
+    /// Replaces the whole file where the format needs it, see [`Format::is_rewritten`](dragonfly_anim::format::Format::is_rewritten): the user has decided.
     pub rewrite: bool,
     /// Files that exist where the document has new ones of these names, and that are replaced: the user has decided.
     pub replaces: Vec<PathBuf>,
@@ -80,7 +80,7 @@ pub enum NotSaved {
     Changed,
     /// A file of this name exists already.
     Exists(PathBuf),
-    /// The whole file would be written anew, and lose what the program does not read: the user decides.
+    /// The whole file would be replaced, and lose what the program does not read: the user decides.
     Rewritten,
     /// Any other failure, with path and reason.
     Failed(String),

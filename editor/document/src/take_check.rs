@@ -29,7 +29,7 @@ pub struct CheckedTake {
 }
 
 impl TakeCheck {
-    /// Returns the defects, with the thresholds beside `model` or else the usual ones; `None` stands for a model without a file.
+    /// Returns the defects, with the thresholds in the file next to `model`, or the usual ones; a model without a file (`None`) has the usual ones.
     ///
     /// # Errors
     ///

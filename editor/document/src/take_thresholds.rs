@@ -1,4 +1,4 @@
-//! Thresholds for the check of takes, as JSON files that users keep beside a model.
+//! Thresholds for the check of takes, as JSON files that users keep next to a model.
 //!
 //! ```json
 //! {"pop": 80, "floor": null, "meters_per_unit": 0.01, "up": "y", "floor_height": 0, "rate": 30,
@@ -93,7 +93,7 @@ impl TakeThresholds {
         model.with_extension("check.json")
     }
 
-    /// Reads the thresholds beside a model; the usual ones where there are none.
+    /// Reads the thresholds next to a model; the usual ones where there are none.
     ///
     /// # Errors
     ///

@@ -21,7 +21,7 @@ A scene (.xml) or project (.meproj) is checked with the models that it names; fi
 With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, joint_limit,\n\
 loop_gap (off), spare_keys and outside. A figure of more than 20 m is taken to be in centimeters or millimeters. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
 \"up\": \"y\", \"floor_height\": 0, \"rate\": 30, \"joints\": {\"Knee.L\": {\"hinge\": {\"axis\": \"x\", \"range\": [0, 150]}}}}; null switches a\n\
-rule off. Without --thresholds, those of Fox.glb are read from Fox.check.json beside it, as the editor does.\n\n\
+rule off. Without --thresholds, those of Fox.glb are read from Fox.check.json next to it, as the editor does.\n\n\
 Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json\n  \
 dragonfly check Fox.glb --takes --thresholds lint.json\n  dragonfly check duel.xml")]
 pub(super) struct CheckArguments {
@@ -33,7 +33,7 @@ pub(super) struct CheckArguments {
     /// Also measure defects of the motion of takes, each with bone, frame, amount and unit
     #[arg(long)]
     takes: bool,
-    /// Read the thresholds of --takes from a JSON file, instead of the one beside each model
+    /// Read the thresholds of --takes from a JSON file, instead of the file next to each model
     #[arg(long, value_name = "FILE", requires = "takes")]
     thresholds: Option<PathBuf>,
     /// Print one JSON document instead of text

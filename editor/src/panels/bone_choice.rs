@@ -38,7 +38,7 @@ impl BoneChoice<'_> {
             let width = self.width.max(160.0);
             let text = TextEdit::singleline(&mut filter).hint_text("Filter").align(Align2::LEFT_CENTER);
             let field = ui.add(text.desired_width(width));
-            // What is typed while the menu is open filters it.
+            // Letters that are typed while the menu is open filter it.
             if button.clicked() {
                 filter.clear();
                 field.request_focus();

@@ -95,7 +95,7 @@ pub(super) fn cases() -> Vec<PictureCase> {
         bench
     };
     cases.push(PictureCase { bench: Box::new(bench), ..rootless });
-    // The bones of both models are beside each other when the file is read.
+    // The dialog lists the bones of both models once the file is read.
     let name = "overlays/retarget-source".to_owned();
     let read = case(name, vec2(720.0, 640.0), Typical, Some(Overlay::Retarget));
     let bench = || {

@@ -88,7 +88,7 @@ pub(super) fn add_models(
     add_all(workspace, &things)
 }
 
-/// Adds model files that were dropped to the cast as roles in one step: the first one under the pointer, each other one a meter beside the one before.
+/// Adds model files that were dropped to the cast as roles in one step: the first one under the pointer, each further one a meter to the right of the one before.
 pub(super) fn drop_roles(workspace: &mut Workspace, paths: &[PathBuf]) -> Option<Effect> {
     // To a centimeter, which is easy to read.
     let first = scene_ground::pointed(workspace).map(|place| (place * 100.0).round() / 100.0 + 0.0);

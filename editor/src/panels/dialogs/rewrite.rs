@@ -1,4 +1,4 @@
-//! The question before a file of another program is written anew as a whole.
+//! The question before a file of another program is replaced as a whole.
 
 use super::ask::{Ask, Tone};
 use super::kind::QuestionKind;
@@ -6,7 +6,7 @@ use crate::panels::commands::Id;
 use crate::panels::request::{FileAction, Request};
 use dragonfly_document::{DocumentMessage, SaveOrder};
 
-/// Saving writes the whole file from the model, so that the rest of the file is lost.
+/// Saving replaces the whole file by what the editor reads, so that the rest of the file is lost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RewriteQuestion {
     /// The order to save.
@@ -23,12 +23,12 @@ enum RewriteChoice {
 
 impl QuestionKind for RewriteQuestion {
     fn name(&self) -> &'static str {
-        "asked whether the whole file is to be written anew"
+        "asked whether the whole file is to be replaced"
     }
 
     fn show(&self, ask: &mut Ask<'_>) {
         ask.ui.set_width(460.0);
-        ask.title("Write the whole file anew?");
+        ask.title("Replace the whole file?");
         ask.says(
             "Edits cannot be put into an FBX file: the whole file is written from what the editor reads. Constraints, controls, \
              layers and the settings of other programs are not in it.",

@@ -88,7 +88,7 @@ impl ShownProfile {
         let angle = angles.max_by(|a, b| a.value.total_cmp(&b.value))?;
         let frame = |time: f32| (f64::from(time) * f64::from(context.frame_rate)).round();
         let angle = format!("{:.2}° at frame {}", angle.value.to_degrees(), frame(angle.time));
-        // Where bones without children turn, nothing moves.
+        // Bones without children turn without moving anything.
         if far.value <= EQUAL.0 {
             return Some(format!("up to {angle}"));
         }
