@@ -117,6 +117,8 @@ fn bones_that_are_no_chain_are_refused_with_the_reason() {
     select(&mut window, &[1, 2]);
     run(&mut window, Id::PoseLine);
     assert_eq!(window.state().state.read().tools.controls().line().use_of(), Some(LineUse::Pose));
+    let pointer = at(&window, DVec3::ZERO);
+    send(&mut window, InputEvent::MouseMove(pointer));
     send(&mut window, InputEvent::KeyDown(Key::Escape));
     assert_eq!(window.state().state.read().tools.controls().line().use_of(), None);
 }

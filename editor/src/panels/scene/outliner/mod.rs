@@ -18,7 +18,8 @@ use crate::panels::theme::Theme;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_document::SceneView;
 use dragonfly_document::bones::Choice;
-use egui::{Rect, RichText, ScrollArea, Ui, pos2, vec2};
+use egui::style::ScrollAnimation;
+use egui::{Align, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 use lines::LineRows;
 use name_field::NameField;
 use std::sync::Arc;
@@ -160,7 +161,9 @@ impl Outliner {
         let renamed = renaming.and_then(|id| group.iter().position(|own| id_of(script, *own) == id));
         if let Some(row) = renamed.filter(|row| !(first..last).contains(row)) {
             let corner = pos2(ui.cursor().left(), top + row as f32 * ROW);
-            ui.scroll_to_rect(Rect::from_min_size(corner, vec2(1.0, ROW)), None);
+            // At once: a field that moves out of sight again would lose the focus.
+            let rect = Rect::from_min_size(corner, vec2(1.0, ROW));
+            ui.scroll_to_rect_animation(rect, Some(Align::Center), ScrollAnimation::none());
         }
         ui.add_space(first as f32 * ROW);
         for own in &group[first.min(last)..last] {
