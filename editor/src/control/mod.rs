@@ -10,6 +10,7 @@ mod input;
 mod key;
 pub mod line;
 pub mod path;
+pub mod path_point;
 pub mod path_points;
 mod places;
 mod viewport;

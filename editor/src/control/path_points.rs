@@ -12,6 +12,7 @@ use super::drag::{DragEvent, DragMachine};
 use super::framework::ControlFramework;
 use super::input::Button;
 use super::key::{Key, Modifiers};
+use super::path_point::PathPoint;
 use super::viewport_tools::tool::{ToolOutcome, ViewportTool};
 use dragonfly_picture::gizmo::GizmoView;
 use glam::{DVec3, Vec2};
@@ -25,28 +26,6 @@ const SNAP: f64 = 0.25;
 
 /// Sine of the angle above the ground from which on a drag follows the ground; nearer to it, the plane of the view.
 const LEAST_SLOPE: f64 = 0.1;
-
-/// What a point belongs to.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PathPointOwner {
-    /// A path of the cast, by its id.
-    Path(Arc<str>),
-    /// A line of the project, by its name in the editor.
-    Line(Arc<str>),
-}
-
-/// A point that can be dragged.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathPoint {
-    /// What it belongs to.
-    pub owner: PathPointOwner,
-    /// Its number there, from 0.
-    pub index: usize,
-    /// Its position, scene space.
-    pub place: DVec3,
-    /// For a point that gives a curve its direction: the point of the line that it belongs to.
-    pub arm: Option<DVec3>,
-}
 
 /// A point, and where the pointer was at its press.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::scene_lines::lines_edit;
 use super::scene_text::change_text;
-use crate::control::path_points::{PathPoint, PathPointOwner};
+use crate::control::path_point::{PathPoint, PathPointOwner};
 use crate::panels::request::Effect;
 use crate::panels::scene::{SceneBase, ScriptChange, line_named};
 use crate::panels::status::MessageSeverity;

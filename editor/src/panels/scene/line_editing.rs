@@ -3,7 +3,7 @@
 use super::line_eraser::LineEraser;
 use super::line_look::{line_looks, path_looks};
 use super::path_handles::path_handles;
-use crate::control::path_points::PathPoint;
+use crate::control::path_point::PathPoint;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
 use dragonfly_document::SceneView;

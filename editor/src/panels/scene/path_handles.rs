@@ -1,7 +1,7 @@
 //! The points of the selected paths and of the selected line, which can be dragged in the viewport.
 
 use super::line_editing::{line_name, line_named};
-use crate::control::path_points::{PathPoint, PathPointOwner};
+use crate::control::path_point::{PathPoint, PathPointOwner};
 use dragonfly_anim::stage::gesture::written_points;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
 use dragonfly_anim::stage::script::StageScript;

@@ -1,0 +1,26 @@
+//! A point of a path or of a line that can be dragged in the viewport.
+
+use glam::DVec3;
+use std::sync::Arc;
+
+/// What a point belongs to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PathPointOwner {
+    /// A path of the cast, by its id.
+    Path(Arc<str>),
+    /// A line of the project, by its name in the editor.
+    Line(Arc<str>),
+}
+
+/// A point that can be dragged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathPoint {
+    /// What it belongs to.
+    pub owner: PathPointOwner,
+    /// Its number there, from 0.
+    pub index: usize,
+    /// Its position, scene space.
+    pub place: DVec3,
+    /// For a point that gives a curve its direction: the point of the line that it belongs to.
+    pub arm: Option<DVec3>,
+}
