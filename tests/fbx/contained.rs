@@ -129,5 +129,5 @@ fn the_row_is_found_by_content_and_name() {
     assert!((row.sniff)(&crate::support::file("maya_blend_shape_cube_7700_binary.fbx")));
     assert!((row.sniff)(&crate::support::file("maya_interpolation_modes_7500_ascii.fbx")));
     assert!(!(row.sniff)(b"glTF") && !(row.sniff)(b"; a comment of another format"));
-    assert!(!row.is_writable() && row.export.is_some());
+    assert!(row.is_rewritten() && row.is_writable() && row.export.is_some());
 }
