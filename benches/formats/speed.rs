@@ -83,7 +83,7 @@ fn works<'a>(
     (task, works)
 }
 
-/// Measures a text whose goal is a number of bytes per second, beside assimp.
+/// Measures a text whose goal is a number of bytes per second, in turns with assimp.
 fn text(
     bench: &mut FigureBench,
     format: Format,
@@ -105,7 +105,7 @@ fn text(
     bench.goal(&task, name, "ratio to 150 MB/s", "ratio", 1.0);
 }
 
-/// Measures a format whose goal is half the time of assimp; OBJ beside tobj as well.
+/// Measures a format whose goal is half the time of assimp; OBJ in turns with tobj as well.
 fn against(
     bench: &mut FigureBench,
     format: Format,
