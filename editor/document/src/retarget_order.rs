@@ -84,16 +84,8 @@ pub(super) fn computed(
     let facts = format!("{} bones move{feet}", binding.bound());
     let mut add = AddTake::of(base.clone(), &done.take);
     if let Some(over) = &order.layer_of {
-        let layer = AddLayer {
-            take: over.clone(),
-            name: base.clone(),
-            kind: LayerKind::Override,
-            bones: Vec::new(),
-            at: None,
-            copy: None,
-            keys_of: None,
-            tracks: add.tracks,
-        };
+        let layer =
+            AddLayer { tracks: add.tracks, ..AddLayer::new(over.clone(), base.clone(), LayerKind::Override) };
         return Ok((Box::new(Edit::AddLayer(layer)), format!("Added the layer {base}: {facts}")));
     }
     let is_used = |name: &str| adapter.slots().iter().any(|slot| slot.original.name == name);

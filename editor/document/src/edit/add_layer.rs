@@ -121,6 +121,11 @@ impl EditKind for AddLayer {
 }
 
 impl AddLayer {
+    /// Returns the edit that adds the highest layer, for all bones and without keys.
+    pub fn new(take: TakeRef, name: String, kind: LayerKind) -> Self {
+        Self { take, name, kind, bones: Vec::new(), at: None, copy: None, keys_of: None, tracks: Vec::new() }
+    }
+
     /// Returns the keys that the new layer gets; `None` where it gets none.
     fn keys(&self, work: &mut Transaction, take: TakeId) -> Result<Option<Take>, EditError> {
         let refused = |reason| Err(EditError::Nothing(reason));

@@ -17,16 +17,7 @@ pub(in crate::panels) fn add(workspace: &mut Workspace, kind: LayerKind) -> Opti
     let (take, at) = (panels.shown_take_ref()?, panels.layer().map(|layer| layer + 1));
     let name = unused_name(workspace, if kind == LayerKind::Additive { "Layer" } else { "Override" }, 1);
     workspace.layers.choose_next_new();
-    Some(edit(Edit::AddLayer(AddLayer {
-        take,
-        name,
-        kind,
-        bones: Vec::new(),
-        at,
-        copy: None,
-        keys_of: None,
-        tracks: Vec::new(),
-    })))
+    Some(edit(Edit::AddLayer(AddLayer { at, ..AddLayer::new(take, name, kind) })))
 }
 
 /// Adds a copy of the active layer above it and makes it active.
@@ -38,16 +29,7 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
     let name = unused_name(workspace, &name, 1);
     workspace.layers.choose_next_new();
     let (at, copy) = (Some(layer + 1), Some(LayerRef::Index(layer)));
-    Some(edit(Edit::AddLayer(AddLayer {
-        take,
-        name,
-        kind,
-        bones: Vec::new(),
-        at,
-        copy,
-        keys_of: None,
-        tracks: Vec::new(),
-    })))
+    Some(edit(Edit::AddLayer(AddLayer { at, copy, ..AddLayer::new(take, name, kind) })))
 }
 
 /// Deletes the active layer.

@@ -106,18 +106,24 @@ pub(super) fn end(workspace: &mut Workspace) {
     workspace.stage.end_drag();
 }
 
+/// Returns the state at the start of the drag; at its first movement, that is the newest one.
+pub(super) fn gesture_base(
+    workspace: &mut Workspace,
+    scene: &SceneView,
+) -> Result<SceneBase, GestureRefusal> {
+    if let Some(base) = workspace.stage.base() {
+        return Ok(base.clone());
+    }
+    let base = SceneBase::of(scene, workspace.scene.text(scene))?;
+    workspace.stage.set_base(Some(base.clone()));
+    Ok(base)
+}
+
 /// Returns the change that the drag makes now; `None` where it is the same as before.
 fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefusal> {
     let scene = workspace.read().scene().cloned();
     let scene = scene.ok_or_else(|| GestureRefusal("No scene is open".to_owned()))?;
-    let base = match workspace.stage.base() {
-        Some(base) => base.clone(),
-        None => {
-            let base = SceneBase::of(&scene, workspace.scene.text(&scene))?;
-            workspace.stage.set_base(Some(base.clone()));
-            base
-        }
-    };
+    let base = gesture_base(workspace, &scene)?;
     let gesture = workspace.tools.drag().gesture().unwrap_or_else(|| workspace.dragging.new_gesture());
     let time = workspace.read().scene_time();
     let heights = kept_heights(workspace, &scene, time);

@@ -1,10 +1,11 @@
 //! A drag of a point of a path or a line: a new text of the script, or of the file of lines.
 
+use super::scene_gizmo::gesture_base;
 use super::scene_lines::lines_edit;
 use super::scene_text::change_text;
 use crate::control::path_point::{PathPoint, PathPointOwner};
 use crate::panels::request::Effect;
-use crate::panels::scene::{SceneBase, ScriptChange, line_named};
+use crate::panels::scene::{ScriptChange, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, move_path_point};
@@ -45,14 +46,7 @@ fn path_change(
     gesture: Gesture,
 ) -> Result<ScriptChange, GestureRefusal> {
     let scene = open_scene(workspace)?;
-    let base = match workspace.stage.base() {
-        Some(base) => base.clone(),
-        None => {
-            let base = SceneBase::of(&scene, workspace.scene.text(&scene))?;
-            workspace.stage.set_base(Some(base.clone()));
-            base
-        }
-    };
+    let base = gesture_base(workspace, &scene)?;
     let text = move_path_point(&base.script, path, point.index, point.place)?;
     Ok(ScriptChange { from: Arc::clone(base.text()), text, label: "Move point", gesture: Some(gesture) })
 }

@@ -120,14 +120,8 @@ fn from_take(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request
                 && let Some(take) = context.shown_take_ref()
             {
                 let edit = Edit::AddLayer(AddLayer {
-                    take,
-                    name: other.name.to_string(),
-                    kind: LayerKind::Override,
-                    bones: Vec::new(),
-                    at: None,
-                    copy: None,
                     keys_of: Some(TakeRef::Index(index)),
-                    tracks: Vec::new(),
+                    ..AddLayer::new(take, other.name.to_string(), LayerKind::Override)
                 });
                 requests.push(Request::Change(Change::Edit(edit, None)));
                 ui.close();
