@@ -133,7 +133,9 @@ void judge(const std::vector<std::string> &field) {
         for (unsigned i = 0; i < scene->mNumAnimations; i++) {
             if (field[4] == scene->mAnimations[i]->mName.C_Str()) found = scene->mAnimations[i];
         }
-        if (found == nullptr && unsigned(take) < scene->mNumAnimations) found = scene->mAnimations[take];
+        // Takes of FBX always have names, and one of a single instant is left out.
+        bool by_number = found == nullptr && field[2] != "fbx";
+        if (by_number && unsigned(take) < scene->mNumAnimations) found = scene->mAnimations[take];
         if (found == nullptr) {
             std::cout << start << ",\"error\":\"the animation is missing\"}" << std::endl;
             return;
@@ -145,9 +147,20 @@ void judge(const std::vector<std::string> &field) {
     }
     std::string poses;
     std::stringstream times(field[5]);
+    // A take of FBX begins at 0, wherever its first key is.
+    double begin = take >= 0 && field[2] == "fbx" ? std::stod(field[5]) : 0.0;
     for (std::string time; std::getline(times, time, ',');) {
         std::string bones;
-        place(scene->mRootNode, aiMatrix4x4(), channels, std::stod(time) * rate, bones);
+        // The root of FBX is not in the file; a bone of its name is another node.
+        const aiNode *root = scene->mRootNode;
+        double ticks = (std::stod(time) - begin) * rate;
+        if (field[2] == "fbx") {
+            for (unsigned i = 0; i < root->mNumChildren; i++) {
+                place(root->mChildren[i], root->mTransformation, channels, ticks, bones);
+            }
+        } else {
+            place(root, aiMatrix4x4(), channels, ticks, bones);
+        }
         poses += (poses.empty() ? "[" : ",[") + bones + "]";
     }
     std::cout << start << ",\"poses\":[" << poses << "]}" << std::endl;

@@ -146,9 +146,13 @@ class OpenFile:
         if self.path == path:
             return
         self.path, self.transforms = None, None
+        # The importers leave the first take in objects and bones that other takes do not move.
         if kind in ("glb", "gltf") and is_moving:
-            # The importer leaves the first take in objects that other takes do not move.
             import_gltf(without_animations(path))
+            self.transforms = rest()
+        if kind == "fbx" and is_moving:
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            bpy.ops.import_scene.fbx(filepath=path, use_anim=False)
             self.transforms = rest()
         self.to_frame = open_file(path, kind)
         self.transforms = self.transforms or rest()
