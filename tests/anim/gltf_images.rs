@@ -1,9 +1,10 @@
-//! Images in formats that glTF allows by an extension: WebP is read and written, KTX 2 has a fallback or is left out.
+//! Images in formats that glTF allows by an extension: WebP and KTX 2 are read and written.
 
 use crate::fixture::Fixture;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::uri::DataUri;
 use dragonfly_anim::format::{Imported, NoFiles, ReadOptions, gltf, read};
+use dragonfly_kit::folder::data;
 use serde_json::{Value, json};
 
 /// Images of one pixel, made by the encoder of WebP: lossy, lossless, with alpha (those of Modernizr, MIT).
@@ -68,26 +69,45 @@ fn the_webp_image_of_a_texture_is_read_instead_of_the_plain_one() {
 }
 
 #[test]
-fn a_texture_with_ktx_uses_its_other_image_or_is_left_out_with_a_warning() {
-    let ktx = b"\xabKTX 20\xbb\r\n\x1a\n and so on";
-    let mut fixture = with_image("KHR_texture_basisu", ktx, "image/ktx2");
-    fixture.set("/extensionsRequired", json!(["KHR_texture_basisu"]));
-    let codes = |imported: &Imported| -> Vec<&str> { imported.warnings.iter().map(|it| it.code).collect() };
-    let got = imported(&fixture);
-    assert_eq!(image_of(&got.model), Some(0));
-    assert_eq!(codes(&got), ["IMAGE_DATA_INVALID", "TEXTURE_NO_SOURCE"]);
-    fixture.remove("/textures/0/source");
-    let got = imported(&fixture);
-    assert_eq!(image_of(&got.model), None);
-    assert_eq!(codes(&got), ["IMAGE_DATA_INVALID", "TEXTURE_NO_SOURCE"]);
-    assert!(
-        got.warnings.iter().all(|warning| warning.text.contains("KHR_texture_basisu")),
-        "{:?}",
-        got.warnings
-    );
-    // A save keeps both.
-    let opened = crate::save_support::OpenedFile::alone("a.glb", &fixture.glb());
-    assert!(opened.saved(&opened.takes(), &NoFiles).bytes() == fixture.glb());
+fn the_ktx_2_image_of_a_texture_is_read_instead_of_the_plain_one() {
+    for name in ["etc1s", "uastc", "uastc_zstd"] {
+        let bytes = std::fs::read(data(&format!("ktx2/{name}.ktx2"))).unwrap();
+        let mut fixture = with_image("KHR_texture_basisu", &bytes, "image/ktx2");
+        let Imported { model, warnings, .. } = imported(&fixture);
+        assert_eq!((warnings, image_of(&model)), (Vec::new(), Some(1)), "{name}");
+        let image = &model.images[1];
+        assert_eq!((&*image.mime, image.width, image.height), ("image/ktx2", 40, 24), "{name}");
+        assert!(image.bytes[..] == bytes, "{name}");
+        fixture.remove("/textures/0/source").set("/extensionsRequired", json!(["KHR_texture_basisu"]));
+        assert_eq!(imported(&fixture).model, model, "{name}");
+        // Written with the extension, it is the same image again.
+        let written = gltf::write::glb(&model).unwrap();
+        let again = read("b.glb", &written.bytes, &NoFiles, &ReadOptions::default()).unwrap();
+        assert_eq!(again.warnings, [], "{name}");
+        assert!(again.model.images[image_of(&again.model).unwrap() as usize].bytes[..] == bytes, "{name}");
+        for length in 0..bytes.len() {
+            let sized = gltf::measure_image(&bytes[..length]);
+            assert!(sized.is_none_or(|sized| sized == ("image/ktx2", 40, 24)), "{length} bytes");
+        }
+    }
+}
+
+#[test]
+fn a_broken_ktx_2_image_is_left_empty_with_a_warning_and_saved_as_it_is() {
+    // With a format of Vulkan, it is not compressed by Basis Universal.
+    let vulkan = [b"\xabKTX 20\xbb\r\n\x1a\n\x25\0\0\0".as_slice(), &[1; 64]].concat();
+    for ktx in [b"\xabKTX 20\xbb\r\n\x1a\n and".as_slice(), &vulkan] {
+        let mut fixture = with_image("KHR_texture_basisu", ktx, "image/ktx2");
+        fixture.set("/extensionsRequired", json!(["KHR_texture_basisu"]));
+        let got = imported(&fixture);
+        assert_eq!(image_of(&got.model), Some(1));
+        let codes: Vec<&str> = got.warnings.iter().map(|it| it.code).collect();
+        assert_eq!(codes, ["IMAGE_DATA_INVALID"], "{:?}", got.warnings);
+        assert!(got.model.images[1].bytes.is_empty());
+        // A save keeps both.
+        let opened = crate::save_support::OpenedFile::alone("a.glb", &fixture.glb());
+        assert!(opened.saved(&opened.takes(), &NoFiles).bytes() == fixture.glb());
+    }
 }
 
 #[test]

@@ -25,7 +25,11 @@ fn seeds() -> Vec<Vec<u8>> {
         write(&mut bytes);
         bytes.into_inner()
     };
+    let ktx2 = |name: &str| std::fs::read(dragonfly_kit::folder::data("ktx2").join(name)).unwrap();
     vec![
+        ktx2("etc1s.ktx2"),
+        ktx2("uastc.ktx2"),
+        ktx2("uastc_zstd.ktx2"),
         encode(&|out| rgba.write_to(out, ImageFormat::Png).unwrap()),
         encode(&|out| rgb.write_to(out, ImageFormat::Png).unwrap()),
         encode(&|out| grey.write_to(out, ImageFormat::Png).unwrap()),

@@ -15,6 +15,7 @@ mod fox_edits;
 mod held_feet;
 mod image_memory;
 mod images;
+mod images_ktx2;
 mod import_options;
 mod import_takes;
 mod import_vrma;

@@ -198,7 +198,7 @@ fn path_keys_of_an_unlocked_bone_can_be_dragged_in_any_selection() {
     let select = |viewport: &mut ViewportHarness, bones: &[u32]| {
         viewport.state.execute(Request::SelectBones(bones.to_vec(), Choice::Replace));
         viewport.state.begin_frame(viewport.state.read().now);
-        viewport.state.read().tools.controls().path().editable
+        viewport.state.read().tools.controls().path().is_editable()
     };
     // The bone that was selected last is the active one, whose path is shown.
     for (bones, wanted) in [(&[2, 1][..], false), (&[2], true), (&[2, 1], false), (&[1, 2], true)] {

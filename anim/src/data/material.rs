@@ -175,7 +175,7 @@ pub struct Image {
     pub name: String,
     /// The relative path when the image is a file of its own, so that it can be stored separately.
     pub file_name: Option<String>,
-    /// As declared or detected from the first bytes: "image/png" or "image/jpeg"; empty when unknown.
+    /// As declared or detected from the first bytes: one of [`IMAGE_KINDS`](crate::format::IMAGE_KINDS), such as "image/png"; empty when unknown.
     pub mime: String,
     /// Encoded bytes; empty when the image could not be read (a warning gives the reason).
     pub bytes: Arc<[u8]>,

@@ -51,6 +51,7 @@ mod fixed_skeleton;
 #[cfg(feature = "gltf")]
 pub mod gltf;
 mod image;
+mod image_kind;
 mod influences;
 mod key_changes;
 mod key_rows;
@@ -81,7 +82,7 @@ pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, S
 pub(crate) use error::one_line;
 pub use error::{ExportError, ImportError, Place, Warning};
 pub use files::{AssetError, AssetFs, NoFiles};
-pub use image::measure as measure_image;
+pub use image_kind::{IMAGE_KINDS, ImageKind, measure_image};
 pub use read_options::{ByteBudget, OverBudget, ReadOptions};
 pub use registry::Formats;
 

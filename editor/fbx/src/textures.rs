@@ -85,7 +85,7 @@ pub(crate) fn open(
 
 /// Returns type, width and height of an image that a model may contain in addition to images of `pixels`.
 pub(crate) fn accept(bytes: &[u8], pixels: u64) -> Result<(&'static str, u32, u32), String> {
-    let (mime, width, height) = measure_image(bytes).ok_or("neither PNG nor JPEG")?;
+    let (mime, width, height) = measure_image(bytes).ok_or("neither PNG, JPEG, WebP nor KTX 2")?;
     let own = u64::from(width) * u64::from(height);
     if width > IMAGE_SIDE || height > IMAGE_SIDE || own > IMAGE_PIXELS || pixels + own > IMAGES_PIXELS {
         return Err(format!("{width}x{height} pixels are too many"));

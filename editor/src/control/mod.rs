@@ -13,6 +13,7 @@ pub mod path;
 pub mod path_point;
 pub mod path_points;
 mod places;
+mod point_drag;
 mod viewport;
 pub mod viewport_tools;
 

@@ -7,15 +7,12 @@
 //! Esc, right      cancels the drag
 //! ```
 
-use super::base::{BaseControl, InputFlow, Mouse};
-use super::drag::{DragEvent, DragMachine};
-use super::framework::ControlFramework;
-use super::input::Button;
-use super::key::{Key, Modifiers};
+use super::key::Modifiers;
 use super::path_point::PathPoint;
-use super::viewport_tools::tool::{ToolOutcome, ViewportTool};
+use super::point_drag::{PointControl, PointSet};
+use super::viewport_tools::tool::ToolOutcome;
 use dragonfly_picture::gizmo::GizmoView;
-use glam::{DVec3, Vec2};
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 /// Distance within which a point is under the pointer, points of the screen.
@@ -27,62 +24,45 @@ const SNAP: f64 = 0.25;
 /// Sine of the angle above the ground from which on a drag follows the ground; nearer to it, the plane of the view.
 const LEAST_SLOPE: f64 = 0.1;
 
-/// A point, and where the pointer was at its press.
-#[derive(Clone, Debug, PartialEq)]
-struct DraggedPoint {
-    point: PathPoint,
-    start: Vec2,
-}
-
-/// The outcome of an input.
-#[derive(Clone, Debug, PartialEq)]
-enum PointAnswer {
-    Moved(PathPoint),
-    Done,
-    Cancelled,
+/// The points of paths and lines.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathPoints {
+    points: Arc<[PathPoint]>,
 }
 
 /// The control of the points of paths and lines.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PathPointControl {
-    /// Top left of the viewport, points from that of the window.
-    corner: Vec2,
-    view: Option<GizmoView>,
-    points: Arc<[PathPoint]>,
-    hovered: Option<usize>,
-    machine: DragMachine<(), DraggedPoint>,
-    answer: Option<PointAnswer>,
-}
+pub type PathPointControl = PointControl<PathPoints>;
 
 impl PathPointControl {
     /// Sets the points. A drag in progress continues with the point that it drags.
     pub fn show_points(&mut self, points: &Arc<[PathPoint]>) {
-        if std::ptr::eq(self.points.as_ptr(), points.as_ptr()) && self.points.len() == points.len() {
-            return;
+        if !Arc::ptr_eq(&self.set().points, points) {
+            self.replace(|set| set.points = Arc::clone(points));
         }
-        self.points = Arc::clone(points);
-        self.hovered = None;
     }
 
     /// Returns the points.
     pub fn points(&self) -> &[PathPoint] {
-        &self.points
+        &self.set().points
     }
 
     /// Returns whether a point of the list is dragged or under the pointer.
     pub fn is_marked(&self, index: usize) -> bool {
-        match self.machine.drag() {
+        match self.dragged() {
             Some(drag) => self
-                .points
-                .get(index)
-                .is_some_and(|point| (&point.owner, point.index) == (&drag.point.owner, drag.point.index)),
-            None => self.hovered == Some(index),
+                .set()
+                .point(index)
+                .is_some_and(|point| (&point.owner, point.index) == (&drag.owner, drag.index)),
+            None => self.under_pointer() == Some(index),
         }
     }
+}
 
-    fn point_at(&self, at: Vec2) -> Option<usize> {
-        let view = self.view.filter(|_| at.is_finite())?;
-        let distance = |point: &PathPoint| Some(view.to_screen(point.place)?.distance(at.as_dvec2()));
+impl PointSet for PathPoints {
+    type Point = PathPoint;
+
+    fn point_at(&self, view: &GizmoView, at: DVec2) -> Option<usize> {
+        let distance = |point: &PathPoint| Some(view.to_screen(point.place)?.distance(at));
         let near =
             self.points.iter().enumerate().filter_map(|(index, point)| Some((distance(point)?, index)));
         // Of points that cover each other, the one that is drawn last.
@@ -91,11 +71,18 @@ impl PathPointControl {
         nearest.map(|(_, index)| index)
     }
 
-    /// Returns the position of the dragged point with the pointer at `at`; `None` where that is no position.
-    fn put(&self, drag: &DraggedPoint, at: Vec2, modifiers: Modifiers) -> Option<DVec3> {
-        let view = self.view?;
-        let place = drag.point.place;
-        let [from, to] = [drag.start, at].map(|at| at.as_dvec2());
+    fn point(&self, index: usize) -> Option<&PathPoint> {
+        self.points.get(index)
+    }
+
+    fn put(
+        &self,
+        view: &GizmoView,
+        point: &PathPoint,
+        [from, to]: [DVec2; 2],
+        modifiers: Modifiers,
+    ) -> Option<PathPoint> {
+        let place = point.place;
         let by = if modifiers.shift {
             DVec3::Y * view.move_by(place, to - from)?.y
         } else if view.back.y.abs() < LEAST_SLOPE {
@@ -105,105 +92,10 @@ impl PathPointControl {
         };
         let put = place + by;
         let put = if modifiers.ctrl { (put / SNAP).round() * SNAP } else { put };
-        put.is_finite().then_some(put)
+        put.is_finite().then(|| PathPoint { place: put, ..point.clone() })
     }
 
-    fn end(&mut self, event: &DragEvent<(), DraggedPoint>) -> InputFlow {
-        self.answer = Some(match event {
-            DragEvent::Dropped(_) => PointAnswer::Done,
-            DragEvent::Cancelled(_) => PointAnswer::Cancelled,
-            DragEvent::Nothing
-            | DragEvent::Pressed
-            | DragEvent::Started(())
-            | DragEvent::Moved(_)
-            | DragEvent::Clicked(()) => return InputFlow::ToParent,
-        });
-        InputFlow::Stop
-    }
-
-    fn cancel(&mut self) -> InputFlow {
-        let event = self.machine.cancelled();
-        self.end(&event)
-    }
-}
-
-impl ViewportTool for PathPointControl {
-    fn place(&mut self, corner: Vec2) {
-        self.corner = corner;
-    }
-
-    fn look(&mut self, view: GizmoView) {
-        self.view = Some(view);
-    }
-
-    fn take_outcome(&mut self) -> Option<ToolOutcome> {
-        Some(match self.answer.take()? {
-            PointAnswer::Moved(point) => ToolOutcome::MovePoint(point),
-            PointAnswer::Done => ToolOutcome::Done,
-            PointAnswer::Cancelled => ToolOutcome::Cancelled,
-        })
-    }
-
-    fn is_dragging(&self) -> bool {
-        self.machine.drag().is_some()
-    }
-}
-
-impl BaseControl for PathPointControl {
-    fn is_pos_on(&self, point: Vec2) -> bool {
-        self.machine.drag().is_some() || self.point_at(point - self.corner).is_some()
-    }
-
-    fn mouse_move(&mut self, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
-        let at = mouse.at - self.corner;
-        match self.machine.drag() {
-            Some(drag) => {
-                if let Some(place) = self.put(drag, at, mouse.modifiers) {
-                    self.answer = Some(PointAnswer::Moved(PathPoint { place, ..drag.point.clone() }));
-                }
-                InputFlow::Stop
-            }
-            None => {
-                self.hovered = self.point_at(at);
-                // A point covers the handles of the gizmo.
-                if self.hovered.is_some() { InputFlow::Stop } else { InputFlow::ToParent }
-            }
-        }
-    }
-
-    fn mouse_leave(&mut self, _framework: &mut ControlFramework) {
-        self.hovered = None;
-    }
-
-    fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
-        if button == Button::Right {
-            return self.cancel();
-        }
-        let at = mouse.at - self.corner;
-        let point = self.point_at(at).and_then(|point| self.points.get(point)).cloned();
-        let begins = button == Button::Left && !mouse.modifiers.alt && self.machine.drag().is_none();
-        match point.filter(|_| begins) {
-            Some(point) => {
-                self.machine.begin(DraggedPoint { point, start: at });
-                InputFlow::Stop
-            }
-            None => InputFlow::ToParent,
-        }
-    }
-
-    fn mouse_up(&mut self, button: Button, _mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
-        if button != Button::Left {
-            return InputFlow::ToParent;
-        }
-        let event = self.machine.released();
-        self.end(&event)
-    }
-
-    fn key_down(&mut self, key: Key, _: Modifiers, _: bool, _framework: &mut ControlFramework) -> InputFlow {
-        if key == Key::Escape { self.cancel() } else { InputFlow::ToParent }
-    }
-
-    fn input_lost(&mut self, _framework: &mut ControlFramework) {
-        self.cancel();
+    fn request(point: PathPoint) -> ToolOutcome {
+        ToolOutcome::MovePoint(point)
     }
 }

@@ -173,7 +173,7 @@ impl ToolState {
     fn note_placement(&mut self, now: PlacedGizmo, path_editable: bool) {
         let pivot = self.controls.gizmo().gizmo.pivot();
         let path = self.controls.path_mut();
-        (path.editable, path.gizmo) = (path_editable, pivot);
+        path.set_editable(path_editable, pivot);
         self.spare = self.placement.replace(now).map(|placement| placement.bones).unwrap_or_default();
         self.controls.update();
     }
@@ -190,7 +190,7 @@ impl ToolState {
 
     /// Gives the keys of the motion path to the control that drags them.
     pub(super) fn show_path_keys(&mut self) {
-        self.controls.path_mut().show(self.path.keys());
+        self.controls.path_mut().show_keys(self.path.keys());
     }
 
     /// Returns how bones follow one that is moved.

@@ -3,17 +3,12 @@
 use super::accessor::{invalid, unresolved};
 use super::check as code;
 use crate::data::{AlphaMode, Filter, Material, Metallic, Phong, TextureRef, TextureTransform, Wrap};
-use crate::format::{ImportContext, ImportError, Place};
+use crate::format::{IMAGE_KINDS, ImportContext, ImportError, Place};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json;
 use gltf::json::extensions::texture::TextureTransform as JsonTransform;
 use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
-
-/// Extension for textures with a WebP image.
-pub(super) const WEBP: &str = "EXT_texture_webp";
-/// Extension for textures with a KTX 2 image, which is not decoded.
-pub(super) const BASISU: &str = "KHR_texture_basisu";
 
 /// Returns all materials. `images` contains the number in the model for each image of the file.
 pub(super) fn materials(
@@ -199,25 +194,21 @@ impl MaterialReader<'_> {
         }))
     }
 
-    /// Returns the number of the image of a texture: that of `EXT_texture_webp` where there is one, otherwise the plain one;
+    /// Returns the number of the image of a texture: that of an extension where there is one, otherwise the plain one;
     /// `None`, with a warning, if there is neither.
     fn source(&self, texture: &json::Texture, path: &str) -> Option<usize> {
         let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
         let extension = |name: &str| others?.get(name)?.get("source")?.as_u64();
-        if let Some(source) = extension(WEBP) {
+        let of_extension = IMAGE_KINDS.iter().filter_map(|kind| kind.gltf_extension).find_map(extension);
+        if let Some(source) = of_extension {
             return usize::try_from(source).ok();
         }
         // The document model's value for "no source".
         let source = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
-        let text = match (source, extension(BASISU)) {
-            (Some(_), None) => return source,
-            (Some(_), Some(_)) => format!("{BASISU} is not supported; the texture's other image is used"),
-            (None, Some(_)) => {
-                format!("{BASISU} is not supported, and the texture has no other image; it is left out")
-            }
-            (None, None) => "the texture has no PNG, JPEG or WebP image and is left out".to_owned(),
-        };
-        self.context.warn(Place::Pointer(path.to_owned()), code::TEXTURE_NO_SOURCE, text);
+        if source.is_none() {
+            let text = "the texture has no image that can be read, and is left out";
+            self.context.warn(Place::Pointer(path.to_owned()), code::TEXTURE_NO_SOURCE, text);
+        }
         source
     }
 

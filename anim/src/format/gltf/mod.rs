@@ -40,8 +40,8 @@ mod walk;
 mod whole;
 pub mod write;
 
-pub use super::image::measure as measure_image;
-pub use extension::SUPPORTED;
+pub use super::image_kind::measure_image;
+pub use extension::supports_extension;
 pub use material::phong;
 
 use super::{ExportError, Format, ImportContext, ImportError, Place, SavePlan, WriteSupport};

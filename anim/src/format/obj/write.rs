@@ -3,7 +3,7 @@
 use super::materials::AMBIENT;
 use crate::data::{AlphaMode, Material, ModelData, Primitive};
 use crate::evaluator::Evaluator;
-use crate::format::{OutputFile, Place, SavePlan, Warning};
+use crate::format::{ImageKind, OutputFile, Place, SavePlan, Warning};
 use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -50,7 +50,7 @@ fn image_names(model: &ModelData, stem: &str, plan: &mut SavePlan) -> HashMap<u3
             plan.lost.push(Warning { place, code: IMAGE_MISSING, text });
             continue;
         }
-        let extension = if image.mime == "image/jpeg" { "jpg" } else { "png" };
+        let extension = ImageKind::of(&image.mime).map_or("png", |kind| kind.extensions[0]);
         let name = format!("{stem}_{}.{extension}", texture.image);
         plan.files.push(OutputFile { name: name.clone(), bytes: image.bytes.to_vec() });
         names.insert(texture.image, name);

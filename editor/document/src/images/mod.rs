@@ -1,11 +1,12 @@
 //! The images of a model: surveyed when it is opened, and decoded one at a time by what draws it, within limits: a file of
 //! one kilobyte must not allocate all memory.
 
+mod ktx2;
 mod rows;
 
 use super::Cancel;
 use dragonfly_anim::data::Image;
-use image::{ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::collections::HashMap;
 use std::io::Cursor;
 
@@ -151,8 +152,18 @@ struct ImageSize {
     raw: u64,
     /// Whether they need no conversion.
     is_rgba: bool,
-    /// Whether they are decoded row by row.
-    has_rows: bool,
+    decoder: PixelDecoder,
+}
+
+/// The decoder of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum PixelDecoder {
+    /// All pixels at once.
+    Whole,
+    /// Row by row.
+    Rows,
+    /// The transcoder of KTX 2.
+    Ktx2,
 }
 
 /// Number of halvings after which the memory of the result hardly counts.
@@ -171,10 +182,10 @@ impl ImageSize {
 
     /// Returns the most memory that decoding needs.
     fn peak(&self, halvings: u32) -> u64 {
-        match self.has_rows {
-            true => self.kept(halvings) + rows::memory_of_rows(self.width),
-            false if halvings == 0 && self.is_rgba => self.raw,
-            false => self.raw + self.kept(halvings),
+        match self.decoder {
+            PixelDecoder::Rows => self.kept(halvings) + rows::memory_of_rows(self.width),
+            PixelDecoder::Whole | PixelDecoder::Ktx2 if halvings == 0 && self.is_rgba => self.raw,
+            PixelDecoder::Whole | PixelDecoder::Ktx2 => self.raw + self.kept(halvings),
         }
     }
 
@@ -235,8 +246,13 @@ fn size_of_image(image: &Image) -> Result<ImageSize, String> {
         return Err("it has no data".to_owned());
     }
     let measure = || {
+        if ktx2::is_ktx2(&image.bytes) {
+            let [width, height] = ktx2::size_of(&image.bytes)?;
+            let size = ImageSize { width, height, raw: 0, is_rgba: true, decoder: PixelDecoder::Ktx2 };
+            return Ok(ImageSize { raw: ktx2::raw_bytes(size.pixels()), ..size });
+        }
         let (width, height) = reader(image)?.into_dimensions().map_err(|error| error.to_string())?;
-        let size = ImageSize { width, height, raw: 0, is_rgba: false, has_rows: false };
+        let size = ImageSize { width, height, raw: 0, is_rgba: false, decoder: PixelDecoder::Whole };
         // Some decoders allocate by the size, so it is checked before one is created.
         size.check(MAX_PIXELS_TOTAL, u64::MAX, 0)?;
         let mut reader = reader(image)?;
@@ -245,7 +261,8 @@ fn size_of_image(image: &Image) -> Result<ImageSize, String> {
         let is_rgba = decoder.color_type() == image::ColorType::Rgba8;
         let is_png = image::guess_format(&image.bytes).is_ok_and(|format| format == ImageFormat::Png);
         let has_rows = is_png && rows::has_rows(&image.bytes);
-        Ok(ImageSize { raw: decoder.total_bytes(), is_rgba, has_rows, ..size })
+        let kind = if has_rows { PixelDecoder::Rows } else { PixelDecoder::Whole };
+        Ok(ImageSize { raw: decoder.total_bytes(), is_rgba, decoder: kind, ..size })
     };
     std::panic::catch_unwind(measure).unwrap_or_else(|_| Err("the decoder failed".to_owned()))
 }
@@ -264,12 +281,15 @@ fn limits(size: &ImageSize) -> Limits {
 }
 
 fn decode_smaller(image: &Image, size: ImageSize, halvings: u32) -> Result<DecodedImage, String> {
-    if size.has_rows {
-        return rows::decode_rows(&image.bytes, halvings);
-    }
-    let mut reader = reader(image)?;
-    reader.limits(limits(&size));
-    let mut decoded = reader.decode().map_err(|error| error.to_string())?;
+    let mut decoded = match size.decoder {
+        PixelDecoder::Rows => return rows::decode_rows(&image.bytes, halvings),
+        PixelDecoder::Whole => {
+            let mut reader = reader(image)?;
+            reader.limits(limits(&size));
+            reader.decode().map_err(|error| error.to_string())?
+        }
+        PixelDecoder::Ktx2 => DynamicImage::ImageRgba8(ktx2::decode(&image.bytes, size)?),
+    };
     if halvings > 0 {
         let side = |side: u32| (side >> halvings).max(1);
         decoded = decoded.thumbnail_exact(side(size.width), side(size.height));

@@ -5,7 +5,7 @@ use super::names::UsedNames;
 use super::node::{FbxNode, bytes_node, setting};
 use super::scene::{ObjectId, SceneWriter};
 use dragonfly_anim::data::{Filter, Image, TextureRef, TextureTransform, Wrap};
-use dragonfly_anim::format::OutputFile;
+use dragonfly_anim::format::{ImageKind, OutputFile};
 
 /// Names of the two sets of texture coordinates.
 pub(super) const UV_SETS: [&str; 2] = ["UVMap", "UVMap2"];
@@ -69,11 +69,8 @@ fn file_name(image: &Image, number: usize) -> String {
     let name: String =
         name.chars().map(|character| if allowed(character) { character } else { '_' }).collect();
     let name = if name.is_empty() { format!("image {number}") } else { name };
-    let extensions: &[&str] = match image.mime.as_str() {
-        "image/png" => &["png"],
-        "image/jpeg" => &["jpg", "jpeg"],
-        _ => return name,
-    };
+    let Some(kind) = ImageKind::of(&image.mime) else { return name };
+    let extensions = kind.extensions;
     let has = name
         .rsplit_once('.')
         .is_some_and(|(_, end)| extensions.iter().any(|own| end.eq_ignore_ascii_case(own)));

@@ -3,12 +3,9 @@
 use super::bytes::ViewTarget;
 use super::{GltfWriter, named, number, numbers};
 use crate::data::{AlphaMode, Filter, Image, Material, TextureRef, TextureTransform, Wrap};
-use crate::format::gltf::material::WEBP;
+use crate::format::ImageKind;
 use glam::Vec4;
 use serde_json::{Map, Value, json};
-
-/// Media type of WebP.
-const WEBP_TYPE: &str = "image/webp";
 
 /// The materials of a written file, and what they use.
 #[derive(Default)]
@@ -60,11 +57,11 @@ impl GltfWriter<'_> {
             self.lose(format!("/images/{index}"), "an image that could not be read is left out");
             return None;
         }
-        if !["image/png", "image/jpeg", WEBP_TYPE].contains(&image.mime.as_str()) {
+        if ImageKind::of(&image.mime).is_none() {
             let kind = if image.mime.is_empty() { "of an unknown kind" } else { &image.mime };
             self.lose(
                 format!("/images/{index}"),
-                format!("the image is {kind}; glTF allows PNG, JPEG and WebP, so it is left out"),
+                format!("the image is {kind}; glTF allows PNG, JPEG, WebP and KTX 2, so it is left out"),
             );
             return None;
         }
@@ -154,14 +151,13 @@ impl GltfWriter<'_> {
     ) -> Option<Map<String, Value>> {
         let source = images.get(texture.image as usize).copied().flatten()?;
         let sampler = WrittenMaterials::position(&mut written.samplers, sampler(texture));
-        let is_webp =
-            self.model.images.get(texture.image as usize).is_some_and(|image| image.mime == WEBP_TYPE);
-        let entry = match is_webp {
-            true => {
-                self.extensions.insert(WEBP);
-                json!({"sampler": sampler, "extensions": {WEBP: {"source": source}}})
+        let image = self.model.images.get(texture.image as usize);
+        let entry = match image.and_then(|image| ImageKind::of(&image.mime)?.gltf_extension) {
+            Some(extension) => {
+                self.extensions.insert(extension);
+                json!({"sampler": sampler, "extensions": {extension: {"source": source}}})
             }
-            false => json!({"sampler": sampler, "source": source}),
+            None => json!({"sampler": sampler, "source": source}),
         };
         let index = WrittenMaterials::position(&mut written.textures, entry);
         let mut info = Map::new();

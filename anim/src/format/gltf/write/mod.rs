@@ -31,7 +31,7 @@ mod node;
 use crate::data::ModelData;
 use crate::format::gltf::save::SaveError;
 use crate::format::losses::avatar_lost;
-use crate::format::{ExportError, Place, Warning, WholeFile};
+use crate::format::{ExportError, IMAGE_KINDS, Place, Warning, WholeFile};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use bytes::BinaryWriter;
@@ -125,8 +125,9 @@ pub(super) fn document(model: &ModelData) -> Result<(Value, Vec<u8>, Vec<Warning
     let mut root = Map::new();
     root.insert("asset".to_owned(), json!({"version": "2.0", "generator": "Dragonfly"}));
     let used: Vec<&str> = writer.extensions.iter().copied().collect();
-    // Such a texture has no other image.
-    let required = writer.extensions.get(super::material::WEBP).copied();
+    // Such textures have no other image.
+    let of_images = |name: &&str| IMAGE_KINDS.iter().any(|kind| kind.gltf_extension == Some(*name));
+    let required: Vec<&str> = used.iter().copied().filter(of_images).collect();
     let (views, accessors, binary) = writer.binary.finish();
     let buffers = if binary.is_empty() { vec![] } else { vec![json!({"byteLength": binary.len()})] };
     let mut list = |name: &str, values: Vec<Value>| {
@@ -136,7 +137,7 @@ pub(super) fn document(model: &ModelData) -> Result<(Value, Vec<u8>, Vec<Warning
         }
     };
     list("extensionsUsed", used.into_iter().map(Value::from).collect());
-    list("extensionsRequired", required.map(Value::from).into_iter().collect());
+    list("extensionsRequired", required.into_iter().map(Value::from).collect());
     list("scenes", vec![scene.scene]);
     list("nodes", scene.nodes);
     list("meshes", meshes.values);
