@@ -15,7 +15,7 @@ pub const MOST_POSES: usize = 8 << 20;
 const RATES: [f32; 10] = [12.0, 15.0, 24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0];
 
 /// Share of a frame by which a key, or the end of a take, may be off its frame.
-pub(crate) const OFF_FRAME: f64 = 0.02;
+pub const OFF_FRAME: f64 = 0.02;
 
 /// Returns the number of frames from a start to the last one at or just before the end, `length` seconds later.
 pub(crate) fn frames_within(length: f64, rate: f64) -> usize {
@@ -23,7 +23,7 @@ pub(crate) fn frames_within(length: f64, rate: f64) -> usize {
 }
 
 /// Returns the number of frames from a start to the first one at or just after the end, `length` seconds later.
-pub(crate) fn frames_over(length: f64, rate: f64) -> usize {
+pub fn frames_over(length: f64, rate: f64) -> usize {
     ((length * rate - OFF_FRAME).ceil().max(0.0) as usize).saturating_add(1)
 }
 

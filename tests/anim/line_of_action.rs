@@ -141,11 +141,11 @@ fn what_has_no_solution_is_an_error_and_leaves_the_poses() {
     let wrong = IkError::NotFinite { bone: 0 };
     let below = IkError::NotBelow { above: 0, below: 0 };
     let cases: [(ActionLine<'_>, IkError); 7] = [
-        (ActionLine { stroke: &[], ..line }, wrong),
-        (ActionLine { stroke: &[Vec3::Y; 3], ..line }, wrong),
+        (ActionLine { stroke: &[], ..line }, IkError::NoLine),
+        (ActionLine { stroke: &[Vec3::Y; 3], ..line }, IkError::NoLine),
         (ActionLine { stroke: &[Vec3::ZERO, Vec3::NAN], ..line }, wrong),
-        (ActionLine { back: Vec3::ZERO, ..line }, wrong),
-        (ActionLine { back: Vec3::X, ..line }, wrong),
+        (ActionLine { back: Vec3::ZERO, ..line }, IkError::NoLine),
+        (ActionLine { back: Vec3::X, ..line }, IkError::NoLine),
         (ActionLine { end: 0, ..line }, below),
         (ActionLine { end: 9, ..line }, IkError::NoSuchBone { bone: 9 }),
     ];

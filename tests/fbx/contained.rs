@@ -1,12 +1,14 @@
 //! Whatever happens in the child stays there: crashes, endless loops, floods, and attempts to get out are errors of the file.
 
 use crate::support::{parser, read_with};
+use dragonfly_anim::data::Take;
 use dragonfly_anim::format::{
-    ByteBudget, Conventions, Format, ImportContext, ImportError, NoFiles, ReadOptions,
+    ByteBudget, Conventions, EditedTake, Format, ImportContext, ImportError, NoFiles, ReadOptions,
 };
 use dragonfly_fbx::code::FBX_PARSER;
 use dragonfly_fbx::{FBX, FbxParser};
 use std::cell::Cell;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Longest time that any of these may take.
@@ -130,4 +132,22 @@ fn the_row_is_found_by_content_and_name() {
     assert!((row.sniff)(&crate::support::file("maya_interpolation_modes_7500_ascii.fbx")));
     assert!(!(row.sniff)(b"glTF") && !(row.sniff)(b"; a comment of another format"));
     assert!(row.is_rewritten() && row.is_writable() && row.export.is_some());
+}
+
+#[test]
+fn a_file_without_edits_keeps_its_bytes_compacted_or_not() {
+    let bytes = crate::support::file("maya_interpolation_modes_7500_ascii.fbx");
+    let model = crate::support::read_here(&bytes).expect("a model").model;
+    let file = FBX.edit("a.fbx", bytes.clone(), &NoFiles, &ReadOptions::default()).expect("a file");
+    let takes = model.animation.takes.iter().enumerate();
+    let takes: Vec<EditedTake> =
+        takes.map(|(origin, take)| EditedTake { origin: Some(origin), take: Arc::clone(take) }).collect();
+    for plan in [file.plan(&model, &takes), file.compact(&model)] {
+        let plan = plan.expect("a plan");
+        assert!(plan.files[0].bytes == bytes && plan.files.len() == 1 && plan.lost.is_empty());
+    }
+    // With a new name, the whole file is written anew.
+    let mut edited = takes;
+    edited[0].take = Arc::new(Take { name: "other".into(), ..Take::clone(&edited[0].take) });
+    assert!(file.plan(&model, &edited).expect("a plan").files[0].bytes != bytes);
 }

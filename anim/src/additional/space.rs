@@ -1,7 +1,7 @@
 //! The parent space of a bone.
 
 use crate::animation::to_parent;
-use crate::data::{Skeleton, Transform};
+use crate::data::{BoneIndex, Skeleton, Transform};
 use crate::sample::rest_pose;
 use glam::Mat4;
 
@@ -12,17 +12,10 @@ use glam::Mat4;
 /// upwards; a parent that does not come before its child is ignored.
 pub(super) fn parent_to_root(skeleton: &Skeleton, index: usize, poses: &[Transform]) -> Mat4 {
     let mut to_root = Mat4::IDENTITY;
-    let mut index = index;
-    while let Some(parent) = parent_of(skeleton, index) {
-        let bone = &skeleton.bones[parent];
-        let pose = poses.get(parent).copied().unwrap_or_else(|| rest_pose(bone));
+    for above in skeleton.ancestors(index as BoneIndex).map(|above| above as usize) {
+        let bone = &skeleton.bones[above];
+        let pose = poses.get(above).copied().unwrap_or_else(|| rest_pose(bone));
         to_root = to_parent(bone, pose) * to_root;
-        index = parent;
     }
     to_root
-}
-
-fn parent_of(skeleton: &Skeleton, index: usize) -> Option<usize> {
-    let parent = skeleton.bones.get(index)?.parent? as usize;
-    (parent < index).then_some(parent)
 }

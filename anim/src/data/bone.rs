@@ -62,11 +62,21 @@ impl Skeleton {
         (0..self.bones.len() as BoneIndex).filter(move |&index| self.bones[index as usize].parent == bone)
     }
 
-    /// Returns the bones above `bone`, the nearest first; none for a bone that does not exist. A parent that does not come before its child
-    /// is ignored.
-    pub(crate) fn ancestors(&self, bone: BoneIndex) -> impl Iterator<Item = BoneIndex> + '_ {
-        let parent = |bone: BoneIndex| self.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
-        std::iter::successors(parent(bone), move |&bone| parent(bone))
+    /// Returns the parent of `bone`; `None` for a root and for a bone that does not exist. A parent that does not come before its child is
+    /// ignored, so that going from parent to parent ends for any data.
+    pub fn parent(&self, bone: BoneIndex) -> Option<BoneIndex> {
+        self.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
+    }
+
+    /// Returns the bones above `bone`, the nearest first, see [`Self::parent`].
+    pub fn ancestors(&self, bone: BoneIndex) -> impl Iterator<Item = BoneIndex> + '_ {
+        std::iter::successors(self.parent(bone), |&bone| self.parent(bone))
+    }
+
+    /// Returns `bone` and the bones above it, the nearest first; none for a bone that does not exist.
+    pub fn with_ancestors(&self, bone: BoneIndex) -> impl Iterator<Item = BoneIndex> + '_ {
+        let first = Some(bone).filter(|&bone| (bone as usize) < self.bones.len());
+        std::iter::successors(first, |&bone| self.parent(bone))
     }
 
     /// Returns the number of bones.

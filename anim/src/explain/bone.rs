@@ -2,7 +2,7 @@
 
 use super::{ExplainError, SampledPose, Subject};
 use crate::animation::{final_pose, to_parent};
-use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Track, Transform};
+use crate::data::{BoneIndex, Channel, Interpolation, Track, Transform};
 use crate::sample::{Value, find_keys, in_tangent, key_value, out_tangent, rest_pose, sample_channel};
 use glam::{Mat4, Quat, Vec3};
 
@@ -101,16 +101,11 @@ pub(super) fn chain(pose: &SampledPose<'_>, ends: &[BoneIndex]) -> Vec<BoneStep>
             && let Some(wanted) = wanted.get_mut(bone as usize)
             && !std::mem::replace(wanted, true)
         {
-            at = parent_of(pose.skeleton, bone);
+            at = pose.skeleton.parent(bone);
         }
     }
     let wanted = wanted.iter().enumerate().filter(|(_, wanted)| **wanted);
     wanted.map(|(bone, _)| step(pose, bone)).collect()
-}
-
-/// Returns the parent as the formulas use it: a parent that does not come before its child is ignored.
-fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
-    skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }
 
 fn step(pose: &SampledPose<'_>, index: usize) -> BoneStep {
@@ -121,7 +116,7 @@ fn step(pose: &SampledPose<'_>, index: usize) -> BoneStep {
     BoneStep {
         bone: index as BoneIndex,
         name: bone.name.clone(),
-        parent: parent_of(pose.skeleton, index as BoneIndex),
+        parent: pose.skeleton.parent(index as BoneIndex),
         translation: channel(&track.translation, rest.translation, pose.time),
         rotation: channel(&track.rotation, rest.rotation, pose.time),
         scale: channel(&track.scale, rest.scale, pose.time),

@@ -154,11 +154,7 @@ impl EditableFile {
         match &self.source {
             SaveSource::File(file) => file.plan(opened, skeleton, takes),
             SaveSource::Rewritten(_, bytes) if is_unedited(opened, skeleton, takes) => {
-                let bytes = bytes.to_vec();
-                Ok(SavePlan {
-                    files: vec![OutputFile { name: self.name.clone(), bytes }],
-                    ..SavePlan::default()
-                })
+                Ok(self.unedited(bytes))
             }
             SaveSource::Model(write) | SaveSource::Rewritten(write, _) => {
                 let shift = BoneShift::between(&opened.animation.skeleton, skeleton);
@@ -175,7 +171,8 @@ impl EditableFile {
     pub fn compact(&self, opened: &ModelData) -> Result<SavePlan, ExportError> {
         match &self.source {
             SaveSource::File(file) => file.compact(),
-            SaveSource::Model(write) | SaveSource::Rewritten(write, _) => self.whole(*write, opened),
+            SaveSource::Rewritten(_, bytes) => Ok(self.unedited(bytes)),
+            SaveSource::Model(write) => self.whole(*write, opened),
         }
     }
 
@@ -185,6 +182,11 @@ impl EditableFile {
             SaveSource::File(file) => file.neighbors(),
             SaveSource::Model(_) | SaveSource::Rewritten(..) => Vec::new(),
         }
+    }
+
+    fn unedited(&self, bytes: &[u8]) -> SavePlan {
+        let file = OutputFile { name: self.name.clone(), bytes: bytes.to_vec() };
+        SavePlan { files: vec![file], ..SavePlan::default() }
     }
 
     fn whole(&self, write: WriteModel, model: &ModelData) -> Result<SavePlan, ExportError> {

@@ -29,7 +29,7 @@
 
 use super::fabrik::Points;
 use super::limited::{Freedom, limited};
-use super::path::{parent_of, parent_to_root, pose_of};
+use super::path::{parent_to_root, pose_of};
 use super::turn::{arc_between, share};
 use super::{IkError, Reach};
 use crate::data::{BoneIndex, Skeleton, Transform};
@@ -161,7 +161,7 @@ impl ChainScratch {
                 break;
             }
             let below = IkError::NotBelow { above: settings.root, below: settings.end };
-            bone = parent_of(skeleton, bone).ok_or(below)?;
+            bone = skeleton.parent(bone).ok_or(below)?;
         }
         self.links.reverse();
         self.joints.clear();

@@ -34,6 +34,9 @@ pub enum IkError {
         /// The first bone of the solve.
         bone: BoneIndex,
     },
+    /// A line of action has no length, or the bones point at the viewer, so that their line has none.
+    #[error("the line has no length, or the bones point at the viewer")]
+    NoLine,
     /// A scale of zero above the bone: its space has no volume, so nothing can be transformed into it.
     #[error("bone {bone} cannot be turned: a scale of one of its ancestors is zero")]
     Flat {

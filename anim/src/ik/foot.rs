@@ -14,7 +14,7 @@
 //! [`two_bone`](super::two_bone()) moves every ankle to its target. The scheme is the usual one of games;
 //! ozz-animation's sample on foot placement describes the same steps.
 
-use super::path::{parent_of, parent_to_root, pose_of};
+use super::path::{parent_to_root, pose_of};
 use super::turn::{arc, share};
 use super::two_bone::{EndOrientation, Pole, TwoBone, inverse, two_bone_below};
 use super::{IkError, Reach};
@@ -159,7 +159,7 @@ fn check(
         pose_of(skeleton, poses, below)?;
         let mut bone = below;
         while bone != above {
-            bone = parent_of(skeleton, bone).ok_or(IkError::NotBelow { above, below })?;
+            bone = skeleton.parent(bone).ok_or(IkError::NotBelow { above, below })?;
             let matrix = to_parent(&skeleton.bones[bone as usize], pose_of(skeleton, poses, bone)?);
             inverse(Mat3::from_mat4(matrix)).ok_or(IkError::Flat { bone: below })?;
         }

@@ -16,7 +16,7 @@
 use super::IkError;
 use super::chain::Limit;
 use super::limited::limited;
-use super::path::{parent_of, parent_to_root, pose_of};
+use super::path::{parent_to_root, pose_of};
 use super::turn::arc_between;
 use crate::data::{BoneIndex, Skeleton, Transform};
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, Mat4, Vec3};
@@ -43,8 +43,8 @@ pub struct ActionLine<'a> {
 ///
 /// # Errors
 ///
-/// A bone is missing, `line.end` is not below `line.root`, something is not finite, or there is no volume above the chain. A stroke without length, a
-/// `back` without length, and a chain that points at the viewer are reported as not finite. The poses are as they were.
+/// A bone is missing, `line.end` is not below `line.root`, something is not finite, or there is no volume above the chain. [`IkError::NoLine`] for a stroke
+/// without length, a `back` without length, and a chain that points at the viewer. The poses are as they were.
 pub fn line_of_action(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -58,7 +58,10 @@ pub fn line_of_action(
     if links.iter().any(|(_, pose)| !pose.is_finite()) {
         return Err(wrong);
     }
-    let back = line.back.as_dvec3().try_normalize().ok_or(wrong)?;
+    if !line.back.is_finite() || !line.stroke.iter().all(|point| point.is_finite()) {
+        return Err(wrong);
+    }
+    let back = line.back.as_dvec3().try_normalize().ok_or(IkError::NoLine)?;
     let plane = ViewPlane::of(back);
     let joints = joints_of(&parent, &links);
     if !joints.iter().all(|joint| joint.is_finite()) {
@@ -69,8 +72,10 @@ pub fn line_of_action(
     let total: f64 = flat.iter().sum();
     let stroke = StrokeCourse::new(line.stroke.iter().map(|point| plane.flat(point.as_dvec3())));
     let (Some(first), Some(last)) = (joints.first(), joints.last()) else { return Err(wrong) };
-    let stroke =
-        stroke.filter(|_| total > 0.0).ok_or(wrong)?.towards([plane.flat(*first), plane.flat(*last)]);
+    let stroke = stroke
+        .filter(|_| total > 0.0)
+        .ok_or(IkError::NoLine)?
+        .towards([plane.flat(*first), plane.flat(*last)]);
 
     let mut rotations = Vec::with_capacity(bones.len());
     let (mut linear, mut done) = (DMat3::from_mat4(parent), 0.0);
@@ -117,7 +122,7 @@ fn links_of(
         if bone == line.root {
             break;
         }
-        bone = parent_of(skeleton, bone).ok_or(below)?;
+        bone = skeleton.parent(bone).ok_or(below)?;
     }
     links.reverse();
     if links.len() > 1 { Ok(links) } else { Err(below) }

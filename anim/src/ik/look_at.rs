@@ -15,7 +15,7 @@
 //! `fade` falls smoothly from 1 to 0 while the target leaves the field of view, measured from the forward axis of the
 //! last bone as posed: a head gives up rather than snap from one shoulder to the other.
 
-use super::path::{parent_of, parent_to_root, pose_of};
+use super::path::{parent_to_root, pose_of};
 use super::turn::{arc, share, twist_towards};
 use super::two_bone::{inverse, soft_distance};
 use super::{IkError, Reach};
@@ -127,7 +127,7 @@ fn space_of(
     let mut matrix = Mat4::IDENTITY;
     let mut at = bone;
     loop {
-        at = parent_of(skeleton, at).ok_or(IkError::NotBelow { above: first, below: bone })?;
+        at = skeleton.parent(at).ok_or(IkError::NotBelow { above: first, below: bone })?;
         matrix = to_parent(&skeleton.bones[at as usize], pose_of(skeleton, poses, at)?) * matrix;
         if at == first {
             return Ok(to_root_above * matrix);

@@ -5,11 +5,6 @@ use crate::animation::to_parent;
 use crate::data::{BoneIndex, Skeleton, Transform};
 use glam::{Mat3, Mat4, Vec3};
 
-/// Returns the parent of `bone`; a parent that does not come before its child is ignored, as in [`crate::animation`].
-pub(super) fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
-    skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
-}
-
 /// Returns the pose of `bone`, when both it and the bone exist.
 pub(super) fn pose_of(
     skeleton: &Skeleton,
@@ -27,7 +22,7 @@ pub(super) fn parent_to_root(
     to_root: &[Mat4],
     bone: BoneIndex,
 ) -> Result<Mat4, IkError> {
-    match parent_of(skeleton, bone) {
+    match skeleton.parent(bone) {
         Some(parent) => {
             let matrix = to_root.get(parent as usize).copied().ok_or(IkError::NoSuchBone { bone: parent })?;
             if matrix.is_finite() { Ok(matrix) } else { Err(IkError::NotFinite { bone }) }
@@ -56,7 +51,7 @@ pub(super) fn segment(
     let mut between: Option<Mat3> = None;
     let mut bone = below;
     loop {
-        bone = parent_of(skeleton, bone).ok_or(IkError::NotBelow { above, below })?;
+        bone = skeleton.parent(bone).ok_or(IkError::NotBelow { above, below })?;
         if bone == above {
             return Ok(Segment { origin, between });
         }

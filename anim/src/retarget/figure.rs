@@ -144,9 +144,7 @@ fn is_same(take: &Take, source: &Skeleton, target: &Skeleton, binding: &Skeleton
     let moved = take.tracks.iter().filter(|track| !track.is_empty()).map(|track| track.bone);
     let mut checked = vec![false; source.len()];
     for bone in moved {
-        let above =
-            |&bone: &BoneIndex| source.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
-        for bone in std::iter::successors(Some(bone), above) {
+        for bone in std::iter::once(bone).chain(source.ancestors(bone)) {
             match checked.get_mut(bone as usize) {
                 Some(checked) if *checked => break,
                 Some(checked) => *checked = true,
@@ -204,9 +202,7 @@ fn is_bound(binding: &SkeletonBinding, bone: BoneIndex) -> bool {
 
 /// Returns the hips and the bones above them.
 fn trunk(skeleton: &Skeleton, hips: BoneIndex) -> Vec<BoneIndex> {
-    let parent =
-        |&bone: &BoneIndex| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
-    std::iter::successors(Some(hips), parent).collect()
+    skeleton.with_ancestors(hips).collect()
 }
 
 /// Returns the mean ratio of the lengths of both legs, target to source.

@@ -43,7 +43,7 @@ impl RestPose {
 
 /// Returns the parent of a bone; a parent that does not come before its child is ignored.
 pub(super) fn parent_of(skeleton: &Skeleton, bone: usize) -> Option<usize> {
-    skeleton.bones.get(bone)?.parent.map(|parent| parent as usize).filter(|&parent| parent < bone)
+    skeleton.parent(bone as BoneIndex).map(|parent| parent as usize)
 }
 
 /// Returns the bone of the source that moves bone `bone` of the target.

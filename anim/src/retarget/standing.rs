@@ -45,10 +45,9 @@ pub(super) fn standing<'a>(
 
 /// Returns the topmost bone with keys of translation, of the hips and the bones above them.
 fn raised_bone(source: &Skeleton, take: &Take, hips: BoneIndex) -> Option<BoneIndex> {
-    let parent = |&bone: &BoneIndex| source.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
     let is_moved =
         |bone: &BoneIndex| take.tracks.get(*bone as usize).is_some_and(|track| !track.translation.is_empty());
-    std::iter::successors(source.bones.get(hips as usize).map(|_| hips), parent).filter(is_moved).last()
+    source.with_ancestors(hips).filter(is_moved).last()
 }
 
 fn matrices(source: &Skeleton, take: Option<&Take>, time: f32) -> Vec<Mat4> {

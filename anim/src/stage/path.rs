@@ -76,11 +76,6 @@ impl StagePath {
         PathSpot { position: self.point(part, share), direction: self.slope(part, share).normalize_or_zero() }
     }
 
-    /// Returns the points that the path was made of, without neighbors at the same position.
-    pub fn points(&self) -> &[DVec3] {
-        &self.points
-    }
-
     /// Returns the radius of the circle through the places after `distance` meters and `span` meters before and after that; infinite where
     /// they are on a line, and near the ends. At a corner it is in proportion to `span`, and 0 where the path turns back.
     pub fn radius(&self, distance: f64, span: f64) -> f64 {

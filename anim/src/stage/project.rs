@@ -135,6 +135,12 @@ impl StageProject {
         files
     }
 
+    /// Returns kind and id of the things of its cast, in the order of the text.
+    pub fn things(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let things = self.tree.elements().iter().filter(|element| element.row.group == ElementGroup::Thing);
+        things.filter_map(|thing| Some((thing.row.name, thing.value("id")?)))
+    }
+
     /// Returns the things of its cast for a script, with their bytes at `end`, the end of the script's text.
     pub(super) fn shared_things(&self, end: usize) -> impl Iterator<Item = ScriptElement> {
         let things = self.tree.elements().iter().filter(|element| element.row.group == ElementGroup::Thing);
@@ -161,16 +167,11 @@ impl StageProject {
                 errors.add(element.value_range("id"), message, "an id names one part of a project");
             }
         }
-        let named: HashSet<(&str, &str)> = self
-            .tree
-            .elements()
-            .iter()
-            .filter_map(|element| Some((element.row.name, element.value("id")?)))
-            .collect();
         for (name, attribute, kind) in NAMED {
             for element in self.elements_called(name) {
                 let Some(id) = element.value(attribute) else { continue };
-                if !named.contains(&(kind, id)) {
+                let found = ids.get(id).is_some_and(|found| found.row.name == kind);
+                if !found {
                     // A suggestion costs more than what is not reported any more is worth.
                     if errors.is_full() {
                         return;

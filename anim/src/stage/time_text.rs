@@ -60,7 +60,7 @@ pub(super) fn number_text(number: f64) -> String {
 }
 
 /// Returns a number with at most `decimals` decimals, without zeros at its end.
-pub(super) fn decimal_text(number: f64, decimals: usize) -> String {
+pub(in crate::stage) fn decimal_text(number: f64, decimals: usize) -> String {
     let text = format!("{number:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

@@ -1,6 +1,7 @@
 //! The frame rate of the document. Files do not contain it, so it is guessed from the times of keys until one is chosen.
 
 use dragonfly_anim::data::Take;
+use dragonfly_anim::frames::OFF_FRAME;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
@@ -48,8 +49,6 @@ impl FrameRate {
     }
 }
 
-/// Maximum distance of a key to a frame, in frames. Times are stored in single precision, and often rounded.
-const ON: f64 = 0.02;
 /// Maximum number of keys that are read: of a channel, and of a take.
 const MOST: (usize, usize) = (500, 5_000);
 /// Maximum number of takes that are read.
@@ -75,7 +74,8 @@ fn rate_of_take(take: &Take) -> Option<Option<u32>> {
     let keys = columns.flat_map(|times| times.iter().take(MOST.0)).take(MOST.1);
     let times: Vec<f64> = keys.map(|&time| f64::from(time)).filter(|time| *time > 0.0).collect();
     let fits = |rate: &u32| {
-        let on = |time: &&f64| (*time * f64::from(*rate) - (*time * f64::from(*rate)).round()).abs() < ON;
+        let on =
+            |time: &&f64| (*time * f64::from(*rate) - (*time * f64::from(*rate)).round()).abs() < OFF_FRAME;
         // A few keys may be off the frames: the last key of a take is often where the take was cut.
         times.iter().filter(on).count() * 100 >= times.len() * 95
     };

@@ -133,15 +133,9 @@ struct JointChain<'a> {
 
 impl<'a> JointChain<'a> {
     fn of(view: &'a View, number: usize, take: &'a Take, bone: BoneIndex) -> Self {
-        let skeleton = &view.loaded.model.animation.skeleton.bones;
-        let parent = |bone: &BoneIndex| {
-            let parent = skeleton.get(*bone as usize)?.parent;
-            // A parent has a lower index than its child, so the loop ends for any numbers.
-            parent.filter(|parent| parent < bone)
-        };
+        let skeleton = &view.loaded.model.animation.skeleton;
         let track = |bone: BoneIndex| take.tracks.iter().find(|track| track.bone == bone);
-        let mut bones: Vec<_> =
-            std::iter::successors(Some(bone), parent).map(|bone| (bone, track(bone))).collect();
+        let mut bones: Vec<_> = skeleton.with_ancestors(bone).map(|bone| (bone, track(bone))).collect();
         bones.reverse();
         Self { view, take: number, bones }
     }

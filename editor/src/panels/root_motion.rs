@@ -60,9 +60,7 @@ struct GroundPath {
 
 impl GroundPath {
     fn of(skeleton: &Skeleton, take: &Take, bone: BoneIndex, rate: f32, smooth: f32) -> Self {
-        let parent =
-            |&bone: &BoneIndex| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
-        let mut line: Vec<BoneIndex> = std::iter::successors(Some(bone), parent).collect();
+        let mut line: Vec<BoneIndex> = skeleton.with_ancestors(bone).collect();
         line.reverse();
         let at = |time: f32| {
             line.iter().fold(Mat4::IDENTITY, |above, &bone| {

@@ -29,6 +29,6 @@ fn everything_that_moves_follows_a_path() {
         assert!(new.contains(&format!("<move who=\"{who}\" path=\"aisle\"")), "{new}");
     }
     let (_, refused) = gesture(PAR, |scene| follow_path(scene, "door", "aisle", None, seconds(0.0)));
-    let wanted = "\"door\" is no role or prop or camera or light or effect, so it follows no path";
+    let wanted = "\"door\" is a mark; only roles, props, cameras, lights and effects follow a path";
     assert_eq!(refused.unwrap_err().to_string(), wanted);
 }

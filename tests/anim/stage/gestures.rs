@@ -48,7 +48,7 @@ pub(super) fn called(scene: &GestureScene<'_>, id: &str) -> usize {
     scene.script.action_called(id).unwrap()
 }
 
-fn moved(scene: &GestureScene<'_>, id: &str, to: f64) -> Result<String, GestureRefusal> {
+pub(super) fn moved(scene: &GestureScene<'_>, id: &str, to: f64) -> Result<String, GestureRefusal> {
     move_clip(scene, called(scene, id), seconds(to), SequenceOrder::Keep, Followers::Follow)
 }
 
@@ -307,7 +307,7 @@ fn a_new_clip_continues_the_sequence_of_its_role_or_begins_in_a_par() {
     assert_eq!(changed(SEQ, add("ben", 0.25)), [r#"<play who="ben" take="Run" begin="0.25"/>"#]);
     assert_eq!(
         gesture(SEQ, add("wide", 0.0)).1.unwrap_err().to_string(),
-        "\"wide\" is no role or prop, so it plays no takes"
+        "\"wide\" is a camera; only roles and props play takes"
     );
 }
 

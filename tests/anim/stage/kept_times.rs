@@ -1,16 +1,12 @@
 //! Clips are moved, trimmed, copied and deleted: ends, the rest of a clip, and references to the one before stay.
 
 use super::actors::{assets, at, bits, fox, planned, seconds};
-use super::gestures::{called, changed, gesture};
+use super::gestures::{called, changed, gesture, moved};
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, delete_clip, duplicate_clip, move_clip,
-    trim_end, trim_start,
+    Followers, GestureRefusal, SequenceOrder, add_clip, delete_clip, duplicate_clip, move_clip, trim_end,
+    trim_start,
 };
-
-fn moved(scene: &GestureScene<'_>, id: &str, to: f64) -> Result<String, GestureRefusal> {
-    move_clip(scene, called(scene, id), seconds(to), SequenceOrder::Keep, Followers::Follow)
-}
 
 /// Returns begin and end of the action called `id`, seconds.
 fn times(text: &str, id: &str) -> [f64; 2] {
@@ -93,6 +89,13 @@ fn no_action_gets_another_one_before_it_that_it_refers_to() {
         }))
     };
     assert_eq!(change("a", 4.5), wanted);
+    // What comes first has none before it that it could refer to, whatever is behind the sequence.
+    let behind = "<par>\n<seq>\n<play id=\"a\" who=\"anna\" take=\"Survey\"/>\n<play id=\"b\" who=\"anna\" take=\"Walk\"/>\n</seq>\n<play id=\"c\" who=\"ben\" take=\"Walk\" begin=\"prev.end\"/>\n</par>";
+    let (old, new) = gesture(behind, |s| {
+        move_clip(s, called(s, "b"), seconds(0.0), SequenceOrder::Change, Followers::Follow)
+    });
+    let new = new.expect("a text");
+    assert_eq!((times(&new, "b")[0], times(&new, "c")[0]), (0.0, times(&old, "c")[0]), "{new}");
     // Away from it, nothing is refused.
     let (_, new) = gesture(PREV, |s| delete_clip(s, called(s, "c"), Followers::Follow));
     assert_eq!(times(&new.expect("a text"), "b")[0], 2.0);

@@ -101,10 +101,9 @@ fn strokes_without_a_length_and_with_numbers_that_are_not_finite_do_no_harm() {
         assert!(control.len() % 3 == 1 && control.iter().all(|point| point.is_finite()), "{tolerance}");
     }
     let none = LineSamples::new(&[], true);
-    assert_eq!((none.length(), none.at(1.0), none.nearest_to_ray(DVec3::ZERO, DVec3::X)), (0.0, None, None));
+    assert_eq!((none.length(), none.at(1.0)), (0.0, None));
     let point = LineSamples::new(&[DVec3::X; 4], false);
     assert_eq!((point.length(), point.at(9.0)), (0.0, Some(DVec3::X)));
-    assert_eq!(point.nearest_to_ray(DVec3::ZERO, DVec3::X).map(|spot| spot.distance), Some(0.0));
 }
 
 #[test]
@@ -129,28 +128,6 @@ fn a_closed_line_ends_where_it_starts() {
     assert!((samples.length() - 4.0).abs() < 1e-9, "{}", samples.length());
     assert_eq!(samples.at(samples.length()), Some(DVec3::ZERO));
     assert!(samples.at(0.5).expect("a point").distance(DVec3::X * 0.5) < 1e-9);
-}
-
-#[test]
-fn the_place_under_a_pointer_is_the_nearest_of_ten_thousand() {
-    let mut random = Random::new(seed(122));
-    for _ in 0..40 {
-        let control = fit(&stroke(&mut random), 0.02);
-        let samples = LineSamples::new(&control, false);
-        let mut number = || (random.bits() >> 11) as f64 / (1_u64 << 53) as f64;
-        let origin = DVec3::new(6.0 * number(), 5.0, 6.0 * number() - 3.0);
-        let direction = (DVec3::new(6.0 * number(), 0.0, 2.0 * number()) - origin).normalize();
-        let away = |point: DVec3| {
-            let ahead = (point - origin).dot(direction).max(0.0);
-            point.distance(origin + direction * ahead)
-        };
-        let along = |at: usize| samples.at(samples.length() * at as f64 / 10_000.0).expect("a point");
-        let wanted = (0..=10_000).map(|at| away(along(at))).fold(f64::INFINITY, f64::min);
-        let spot = samples.nearest_to_ray(origin, direction).expect("a place");
-        assert!((spot.distance - wanted).abs() < 1e-3, "{} instead of {wanted}", spot.distance);
-        assert!((away(spot.position) - spot.distance).abs() < 1e-9);
-        assert!(samples.at(spot.along).expect("a point").distance(spot.position) < 1e-9);
-    }
 }
 
 const FILE: &str = "<?xml version=\"1.0\"?>\n<lines version=\"1\">\n  <!-- the way to the door -->\n  \

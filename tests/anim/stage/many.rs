@@ -34,7 +34,7 @@ fn a_file_of_very_many_curves_is_refused_and_a_long_line_needs_little_memory() {
     assert!((path.length() - 90_000.0).abs() < 1e-6);
 }
 
-/// Returns a project of many models, with clips that name `of(number)`.
+/// Returns a project of many models, with edits that name `of(number)`.
 fn project(models: usize, edits: usize, of: impl Fn(usize) -> String) -> String {
     let mut text = "<project version=\"1\"><models>\n".to_owned();
     for at in 0..models {

@@ -75,8 +75,8 @@ fn footprints_are_where_the_feet_stand() {
 
 #[test]
 fn a_point_of_a_path_is_moved_and_all_others_stay_as_they_are_written() {
-    let text =
-        scene("<wait dur=\"1\"/>").replace("points=\"0 0 0  3 0 4\"", "points=' 0 0 0.50  3. 0  4  +5 0 6 '");
+    let text = scene("<wait dur=\"1\"/>")
+        .replace("points=\"0 0 0  3 0 4\"", "points=' 0 0 0.50\n\t3. 0  4\n +5 0 6 '");
     let script = StageScript::read(text.as_str()).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
     let points = [DVec3::new(0.0, 0.0, 0.5), DVec3::new(3.0, 0.0, 4.0), DVec3::new(5.0, 0.0, 6.0)];
     assert_eq!(written_points(&script, "aisle").unwrap(), points);

@@ -69,7 +69,7 @@ fn things_that_a_project_shares_are_suggested() {
     let text = "<script version=\"1\"><cast><role id=\"anna\" model=\"a.glb\"/></cast><shot who=\"crane\"/></script>";
     let script = StageScript::read_of(text, Some(&project)).expect("a script");
     let plan = dragonfly_anim::stage::StagePlan::new(&script, &assets(&fox())).expect("a plan");
-    let names = CompletionNames { plan: Some(&plan), ..CompletionNames::default() };
+    let names = CompletionNames { plan: Some(&plan), project: Some(&project), ..CompletionNames::default() };
     assert_eq!(
         taken("<script version=\"1\"><shot who=\"|\"/>", "crane", &names),
         "<script version=\"1\"><shot who=\"crane|\"/>"
@@ -80,4 +80,18 @@ fn things_that_a_project_shares_are_suggested() {
     let at = new.find('|').expect("a cursor");
     let all = completions(&new.replace("g|", ""), at - 1, &names).expect("suggestions");
     assert_eq!(all.items.iter().filter(|item| item.label == "anna").count(), 1);
+    // A thing of the last plan that is no longer in the text is not.
+    let renamed = text.replace("id=\"anna\"", "id=\"hanna\"").replace("who=\"crane\"", "who=\"\"");
+    let at = renamed.find("who=\"\"").expect("a cursor") + 5;
+    let labels = completions(&renamed, at, &names).map(|found| found.items).unwrap_or_default();
+    assert!(labels.iter().any(|item| item.label == "crane"));
+    let new = renamed.replace("<shot who=\"\"/>", "<play who=\"\" take=\"\"/>");
+    let at = new.find("who=\"\"").expect("a cursor") + 5;
+    let labels: Vec<String> = completions(&new, at, &names)
+        .expect("suggestions")
+        .items
+        .into_iter()
+        .map(|item| item.label)
+        .collect();
+    assert_eq!(labels, ["hanna"]);
 }

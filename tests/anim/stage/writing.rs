@@ -90,7 +90,7 @@ fn values_are_names_that_exist() {
         models: &["models/anna.glb", "models/ben.m3d"],
         lines: &["to-ben"],
         sounds: &["ben.ogg"],
-        plan: None,
+        ..CompletionNames::default()
     };
     assert_eq!(suggested("<script version=\"1\"><cast><role model=\"ben|", &names), ["models/ben.m3d"]);
     assert_eq!(suggested("<script version=\"1\"><cast><path id=\"p\" line=\"|\"/>", &names), ["to-ben"]);

@@ -1,9 +1,9 @@
 //! A text that a gesture changes in steps, and the check of the last one.
 
-use super::scene::{GestureRefusal, refused};
+use super::scene::{GestureRefusal, NO_PLACE, of_project, refused};
 use crate::stage::schedule::{Schedule, resolve};
 use crate::stage::script::{ScriptTree, StageScript};
-use crate::stage::splice::{ElementPlace, NewElement, TextSplices, insert, remove_attribute, set_attribute};
+use crate::stage::splice::{TextSplices, remove_attribute, set_attribute};
 use crate::stage::time::StageTime;
 
 /// A script, and the text that it becomes. Each step that changes something reads the text once.
@@ -32,7 +32,7 @@ impl<'a> ScriptDraft<'a> {
         find: impl FnOnce(&ScriptTree) -> Option<TextSplices>,
     ) -> Result<Self, GestureRefusal> {
         let Some(splices) = find(self.tree()) else {
-            return refused("There is no place for it in the script");
+            return refused(NO_PLACE);
         };
         if splices.list().is_empty() {
             return Ok(self);
@@ -41,12 +41,21 @@ impl<'a> ScriptDraft<'a> {
         Ok(Self { tree: Some(ScriptTree::read(text)?), ..self })
     }
 
+    /// Refuses an element that belongs to the project of the script.
+    pub(super) fn own(self, element: usize) -> Result<Self, GestureRefusal> {
+        match self.tree().elements().get(element) {
+            Some(shared) if shared.is_shared => {
+                let id = shared.value("id").unwrap_or_default();
+                refused(of_project(id))
+            }
+            Some(_) | None => Ok(self),
+        }
+    }
+
     /// Changes attributes, in one step. Attributes that already have their values stay as they are written.
-    pub(super) fn with(self, changes: &[AttributeChange<'_>]) -> Result<Self, GestureRefusal> {
-        let is_shared = |element: usize| self.tree().elements().get(element).is_some_and(|own| own.is_shared);
-        if let Some((shared, ..)) = changes.iter().find(|(element, ..)| is_shared(*element)) {
-            let id = self.tree().elements()[*shared].value("id").unwrap_or_default();
-            return refused(format!("\"{id}\" belongs to the project: change it there"));
+    pub(super) fn with(mut self, changes: &[AttributeChange<'_>]) -> Result<Self, GestureRefusal> {
+        for (element, ..) in changes {
+            self = self.own(*element)?;
         }
         self.then(|tree| {
             let changed = |(element, name, value): &AttributeChange<'_>| match value {
@@ -56,16 +65,6 @@ impl<'a> ScriptDraft<'a> {
             let splices: Option<Vec<TextSplices>> = changes.iter().map(changed).collect();
             TextSplices::joined(splices?)
         })
-    }
-
-    /// Inserts an element; the first step.
-    pub(super) fn insert(self, place: ElementPlace, new: &NewElement) -> Result<Self, GestureRefusal> {
-        if let ElementPlace::After(element) = place {
-            let actions = self.script.actions();
-            let before = actions.iter().position(|action| action.element == element);
-            keeps_prev(self.script, before.and_then(|before| self.script.next_sibling(before)))?;
-        }
-        self.then(|tree| insert(tree, place, new))
     }
 
     /// Returns the text, if it is a script that can be read and whose times do not depend on themselves.

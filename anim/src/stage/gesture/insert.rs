@@ -2,7 +2,7 @@
 
 use super::draft::ScriptDraft;
 use super::scene::{GestureRefusal, GestureScene, refused};
-use crate::stage::splice::{ElementPlace, NewElement};
+use crate::stage::splice::{ElementPlace, NewElement, insert};
 use crate::stage::table;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::{readable, time_text};
@@ -19,8 +19,7 @@ struct ActionPlace {
 ///
 /// There is no such camera, or it is seen at that time already.
 pub fn cut_to(scene: &GestureScene<'_>, camera: &str, at: StageTime) -> Result<String, GestureRefusal> {
-    let is_camera = scene.plan.things().iter().any(|thing| &*thing.id == camera && thing.kind == "camera");
-    if !is_camera {
+    if kind_of(scene, camera) != Some("camera") {
         return refused(format!("\"{camera}\" is no camera of the cast"));
     }
     let at = at.max(StageTime::ZERO);
@@ -43,7 +42,7 @@ pub fn cut_to(scene: &GestureScene<'_>, camera: &str, at: StageTime) -> Result<S
     let shot = NewElement::new("shot").with("who", camera);
     let shot =
         shot.with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
-    draft.insert(place, &shot)?.finish()
+    draft.then(|tree| insert(tree, place, &shot))?.finish()
 }
 
 /// Adds a take to a role at `at`: at the end of its `seq` where its last clip is in one, otherwise in a `par`.
@@ -57,7 +56,7 @@ pub fn add_clip(
     take: &str,
     at: StageTime,
 ) -> Result<String, GestureRefusal> {
-    check_who(scene, who, "play", "plays no takes")?;
+    check_who(scene, who, "play", "play takes")?;
     add_action(scene, who, NewElement::new("play").with("who", who).with("take", take), at)
 }
 
@@ -73,7 +72,7 @@ pub fn follow_path(
     take: Option<&str>,
     at: StageTime,
 ) -> Result<String, GestureRefusal> {
-    check_who(scene, who, "move", "follows no path")?;
+    check_who(scene, who, "move", "follow a path")?;
     if kind_of(scene, path) != Some("path") {
         return refused(format!("\"{path}\" is no path of the cast"));
     }
@@ -91,12 +90,19 @@ fn kind_of(scene: &GestureScene<'_>, id: &str) -> Option<&'static str> {
     scene.plan.things().get(thing).map(|thing| thing.kind)
 }
 
-/// Refuses a thing that does no action of this name, with `reason`.
-fn check_who(scene: &GestureScene<'_>, who: &str, action: &str, reason: &str) -> Result<(), GestureRefusal> {
+/// Refuses a thing that does no action of this name, which do `what`.
+fn check_who(scene: &GestureScene<'_>, who: &str, action: &str, what: &str) -> Result<(), GestureRefusal> {
     let kinds = table::element(action).map_or(&[][..], |row| row.who);
     match kind_of(scene, who) {
         Some(kind) if kinds.contains(&kind) => Ok(()),
-        Some(_) => refused(format!("\"{who}\" is no {}, so it {reason}", kinds.join(" or "))),
+        Some(kind) => {
+            let plural: Vec<String> = kinds.iter().map(|kind| format!("{kind}s")).collect();
+            let kinds = match &plural[..] {
+                [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+                _ => plural.concat(),
+            };
+            refused(format!("\"{who}\" is a {kind}; only {kinds} {what}"))
+        }
         None => refused(format!("No thing of the cast has the id \"{who}\"")),
     }
 }
@@ -129,7 +135,7 @@ fn add_action(
         let begin = time_text(readable(at - base, scene.script.rate()), scene.script.rate(), "");
         action = action.with("begin", begin);
     }
-    ScriptDraft::of(scene.script).insert(place, &action)?.finish()
+    ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &action))?.finish()
 }
 
 /// Attaches a thing to another one, or to a bone of it such as `anna.RightHand`, from `at` on.
@@ -161,7 +167,7 @@ pub fn attach_thing(
         attach = attach
             .with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
     }
-    ScriptDraft::of(scene.script).insert(place, &attach)?.finish()
+    ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &attach))?.finish()
 }
 
 /// Returns the place after the action `near`, or after the `seq` around it, in a `par`; at the end of the script without one.

@@ -42,10 +42,14 @@ pub fn move_clip(
         if let Some(ActionMoment::Offset(begin)) = own.begin {
             changes.extend(following_end(scene, action, -begin));
         }
-        // Three actions have another one before them.
-        let (ElementPlace::First(near) | ElementPlace::After(near)) = place;
-        let before = scene.script.actions().iter().position(|other| other.element == near);
-        let behind = before.and_then(|before| scene.script.next_sibling(before));
+        // Three actions have another one before them. What was first had none, so that it refers to none.
+        let behind = match place {
+            ElementPlace::First(_) => None,
+            ElementPlace::After(near) => {
+                let before = scene.script.actions().iter().position(|other| other.element == near);
+                before.and_then(|before| scene.script.next_sibling(before))
+            }
+        };
         keeps_prev(
             scene.script,
             [Some(action), scene.script.next_sibling(action), behind].into_iter().flatten(),

@@ -4,6 +4,7 @@ use super::draft::ScriptDraft;
 use super::scene::{GestureRefusal, refused};
 use crate::stage::line::points_text;
 use crate::stage::script::StageScript;
+use crate::stage::splice::{TextSplice, TextSplices};
 use crate::stage::table::points;
 use glam::DVec3;
 use std::ops::Range;
@@ -22,18 +23,19 @@ pub fn move_path_point(
     let tree = script.tree();
     let element = script.thing_element(path).filter(|&element| tree.elements()[element].row.name == "path");
     let Some(element) = element else { return refused(format!("No path of the cast has the id \"{path}\"")) };
-    let Some(written) = tree.elements()[element].value("points") else {
+    let Some(attribute) = tree.elements()[element].attribute("points") else {
         return refused(format!("{path} follows a line: its points are those of the line"));
     };
-    let Some(range) = point_range(written, index) else {
+    let written = attribute.value_range.clone();
+    let Some(range) = point_range(tree.text(), written, index) else {
         return refused(format!("{path} has no such point"));
     };
     if position.abs().max_element() >= 1e6 {
         return refused("The position is too far away");
     }
     let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
-    let value = format!("{}{point}{}", &written[..range.start], &written[range.end..]);
-    ScriptDraft::of(script).with(&[(element, "points", Some(value))])?.finish()
+    let splices = TextSplices::new(vec![TextSplice { range, text: point }]);
+    ScriptDraft::of(script).own(element)?.then(|_| splices)?.finish()
 }
 
 /// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.
@@ -42,10 +44,12 @@ pub fn written_points(script: &StageScript, path: &str) -> Option<Vec<DVec3>> {
     points(element.value("points").filter(|_| element.row.name == "path")?)
 }
 
-/// Returns where the three numbers of a point are in a list of numbers with blanks between them.
-fn point_range(text: &str, index: usize) -> Option<Range<usize>> {
+/// Returns where the three numbers of a point are in `text`, which has a list of numbers with blanks between them at `list`. `None` where
+/// there is no such point, and for a list with references such as `&#10;`.
+fn point_range(text: &str, list: Range<usize>, index: usize) -> Option<Range<usize>> {
     let start_of = |number: &str| number.as_ptr() as usize - text.as_ptr() as usize;
-    let mut numbers = text.split_ascii_whitespace().skip(index.checked_mul(3)?);
+    let list = text.get(list).filter(|list| !list.contains('&'))?;
+    let mut numbers = list.split_ascii_whitespace().skip(index.checked_mul(3)?);
     let first = numbers.next()?;
     let last = numbers.nth(1)?;
     Some(start_of(first)..start_of(last) + last.len())

@@ -1,7 +1,7 @@
 //! Things put somewhere else.
 
 use super::draft::spliced_text;
-use super::scene::{GestureRefusal, GestureScene, refused};
+use super::scene::{GestureRefusal, GestureScene, NO_PLACE, of_project, refused};
 use crate::stage::splice::{TextSplices, set_attribute};
 use crate::stage::table::vector;
 use crate::stage::time::StageTime;
@@ -122,7 +122,7 @@ fn written(
 }
 
 fn no_place() -> GestureRefusal {
-    GestureRefusal("There is no place for it in the script".to_owned())
+    GestureRefusal(NO_PLACE.to_owned())
 }
 
 /// The element that puts a thing where it is.
@@ -162,7 +162,7 @@ fn starting_place(
         return refused(format!("No thing of the cast has the id \"{thing}\""));
     };
     if tree.elements()[cast].is_shared {
-        return refused(format!("\"{thing}\" belongs to the project: change it there"));
+        return refused(of_project(thing));
     }
     if tree.elements()[cast].row.attribute(attribute).is_none() {
         return refused(format!("A {} has no place of its own", tree.elements()[cast].row.name));

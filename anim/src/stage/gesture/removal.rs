@@ -79,9 +79,7 @@ pub fn duplicate_clip(scene: &GestureScene<'_>, action: usize) -> Result<String,
     let follows = is_in_seq && is_usual(scene, action);
     if scene.script.refers_to_prev(action) || !(follows || length == StageTime::ZERO) {
         // The action before the copy is the original.
-        let is_prev = |name: &str| {
-            scene.script.element(action).value(name).is_some_and(|moment| moment.starts_with("prev."))
-        };
+        let is_prev = |name: &str| scene.script.names_prev(action, name);
         changes.push(if is_usual(scene, action) || is_prev("begin") {
             written_out(scene, action, element, "begin", [base, times.begin + length])
         } else {
@@ -93,7 +91,8 @@ pub fn duplicate_clip(scene: &GestureScene<'_>, action: usize) -> Result<String,
         }
     }
     let mut lengths = scene.lengths();
-    lengths.splice(copy..copy, scene.lengths()[action..copy].iter().copied());
+    let copied = lengths[action..copy].to_vec();
+    lengths.splice(copy..copy, copied);
     ScriptDraft::of(scene.script)
         .then(|tree| duplicate(tree, own.element))?
         .with(&changes)?

@@ -50,6 +50,14 @@ pub(super) const SHORTEST: StageTime = StageTime::from_ticks(TICKS_PER_SECOND / 
 /// The reason why an action is not cut down to nothing.
 pub(super) const NO_LENGTH: &str = "It would have no length";
 
+/// The reason why a change has no place in the text.
+pub(super) const NO_PLACE: &str = "There is no place for it in the script";
+
+/// Returns the reason why a thing of the project is not changed in a script.
+pub(super) fn of_project(id: &str) -> String {
+    format!("\"{id}\" belongs to the project: change it there")
+}
+
 /// Returns a refusal.
 pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, GestureRefusal> {
     Err(GestureRefusal(reason.into()))

@@ -25,6 +25,6 @@ mod write;
 
 pub use course::path_points;
 pub use fit::fit;
-pub use read::{DrawnLine, DrawnLines, MOST_CURVES};
-pub use samples::{LineSamples, LineSpot};
+pub use read::{DrawnLine, DrawnLines};
+pub use samples::LineSamples;
 pub use write::{NewLine, points_text};

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Largest number of curves of a file: some thousand strokes of a pen. Each of them is sampled to be drawn and measured.
-pub const MOST_CURVES: usize = 32_768;
+const MOST_CURVES: usize = 32_768;
 
 /// A line of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +50,7 @@ impl DrawnLines {
     /// # Errors
     ///
     /// Everything that is wrong, in the order of the text, as [`crate::stage::script::StageScript::read`] reports it; more than
-    /// [`MOST_CURVES`] curves.
+    /// 32,768 curves.
     pub fn read(text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
         Self::read_of(text, None)
     }

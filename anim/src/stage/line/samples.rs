@@ -20,17 +20,6 @@ pub struct LineSamples {
     lengths: Vec<f64>,
 }
 
-/// A place on a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LineSpot {
-    /// Length from the start, meters.
-    pub along: f64,
-    /// Position, meters.
-    pub position: DVec3,
-    /// Distance from what was asked for, meters.
-    pub distance: f64,
-}
-
 impl LineSamples {
     /// Samples a chain of cubic Bézier curves with these control points, 3 n + 1 of them; others are left out at the end. A closed line ends
     /// where it starts.
@@ -73,38 +62,4 @@ impl LineSamples {
         let [from, to] = [before, next].map(|index| self.lengths[index]);
         Some(self.points[before].lerp(*after, (along - from) / (to - from)))
     }
-
-    /// Returns the place that is nearest to a ray from `origin` along `direction`, which has unit length; `None` without points.
-    pub fn nearest_to_ray(&self, origin: DVec3, direction: DVec3) -> Option<LineSpot> {
-        let mut found: Option<LineSpot> = None;
-        // A line of one point is a piece that stays there.
-        let pieces = (0..self.points.len().max(2) - 1).filter_map(|at| {
-            let (first, last) = (self.points.get(at)?, self.points.get(at + 1).or(self.points.get(at))?);
-            let lengths = [at, at + 1].map(|at| self.lengths.get(at).copied().unwrap_or(self.length()));
-            Some(([*first, *last], lengths))
-        });
-        for ([start, end], [from, to]) in pieces {
-            let (share, distance) = nearest_on_piece([start, end], origin, direction);
-            if found.is_none_or(|best| distance < best.distance) {
-                let (along, position) = (from + (to - from) * share, start + (end - start) * share);
-                found = Some(LineSpot { along, position, distance });
-            }
-        }
-        found
-    }
-}
-
-/// Returns the share of a straight piece that is nearest to a ray, and its distance.
-fn nearest_on_piece([start, end]: [DVec3; 2], origin: DVec3, direction: DVec3) -> (f64, f64) {
-    let (along, away) = (end - start, start - origin);
-    // The closest points of two lines, and then of the part of each that counts.
-    let (a, b, c) = (along.dot(along), along.dot(direction), along.dot(away));
-    let f = direction.dot(away);
-    let square = a - b * b;
-    let share = if square > a * 1e-12 { ((b * f - c) / square).clamp(0.0, 1.0) } else { 0.0 };
-    let ahead = (b * share + f).max(0.0);
-    let share = if a > 0.0 { ((b * ahead - c) / a).clamp(0.0, 1.0) } else { 0.0 };
-    let position = start + along * share;
-    let ahead = (position - origin).dot(direction).max(0.0);
-    (share, position.distance(origin + direction * ahead))
 }

@@ -4,6 +4,7 @@ use super::read::DrawnLines;
 use crate::stage::splice::{
     AttachedComments, ElementPlace, NewElement, TextSplices, delete, insert, remove_attribute, set_attribute,
 };
+use crate::stage::time_text::decimal_text;
 use glam::DVec3;
 
 /// A line to write. Attributes with their default value are left out.
@@ -66,15 +67,6 @@ pub fn points_text(points: &[DVec3]) -> Option<String> {
     if !points.iter().all(|point| point.is_finite()) {
         return None;
     }
-    let point = |point: &DVec3| point.to_array().map(number).join(" ");
+    let point = |point: &DVec3| point.to_array().map(|number| decimal_text(number, 4)).join(" ");
     Some(points.iter().map(point).collect::<Vec<_>>().join("  "))
-}
-
-/// Returns a number with at most four decimals, without zeros at the end.
-fn number(number: f64) -> String {
-    let text = format!("{number:.4}");
-    match text.trim_end_matches('0').trim_end_matches('.') {
-        "-0" => "0".to_owned(),
-        short => short.to_owned(),
-    }
 }

@@ -13,8 +13,7 @@ pub struct StageFoot {
 
 /// Returns the nearest bone that is above all `feet`; `None` without feet or without such a bone.
 pub(super) fn hips_above(skeleton: &Skeleton, feet: &[StageFoot]) -> Option<BoneIndex> {
-    let parent = |&bone: &BoneIndex| skeleton.bones.get(bone as usize).and_then(|bone| bone.parent);
-    let above = |bone: BoneIndex| std::iter::successors(parent(&bone), parent);
-    let first = feet.first()?.limb.root;
-    above(first).find(|&hips| feet.iter().all(|foot| above(foot.limb.root).any(|bone| bone == hips)))
+    let is_above =
+        |hips: BoneIndex, foot: &StageFoot| skeleton.ancestors(foot.limb.root).any(|bone| bone == hips);
+    skeleton.ancestors(feet.first()?.limb.root).find(|&hips| feet.iter().all(|foot| is_above(hips, foot)))
 }

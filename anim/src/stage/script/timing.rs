@@ -58,9 +58,11 @@ impl StageScript {
 
     /// Returns whether `begin` or `end` of an action refers to the one before it as `prev`.
     pub(in crate::stage) fn refers_to_prev(&self, action: usize) -> bool {
-        let element = self.element(action);
-        ["begin", "end"]
-            .iter()
-            .any(|name| element.value(name).is_some_and(|moment| moment.starts_with("prev.")))
+        ["begin", "end"].iter().any(|name| self.names_prev(action, name))
+    }
+
+    /// Returns whether the moment called `name`, `begin` or `end`, of an action refers to the one before it as `prev`.
+    pub(in crate::stage) fn names_prev(&self, action: usize, name: &str) -> bool {
+        self.element(action).value(name).is_some_and(|moment| moment.starts_with("prev."))
     }
 }

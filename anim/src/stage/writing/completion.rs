@@ -2,6 +2,7 @@
 
 use super::cursor::{AfterName, CursorPlace, OpenTag, place};
 use super::names::{NamedElement, named_elements};
+use crate::stage::project::StageProject;
 use crate::stage::splice::escaped;
 use crate::stage::table::{ElementGroup, ElementRow, NameReference, PROPERTIES, children_of, element};
 use crate::stage::{StageModel, StagePlan};
@@ -56,8 +57,10 @@ pub struct Completions {
 /// Names that are not in the text.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompletionNames<'a> {
-    /// The last plan that worked, for takes and bones, and for things that a project shares.
+    /// The last plan that worked, for takes and bones.
     pub plan: Option<&'a StagePlan>,
+    /// The project of the text, for the things that it shares.
+    pub project: Option<&'a StageProject>,
     /// Names for models: files, and ids of a project.
     pub models: &'a [&'a str],
     /// Names of drawn lines.
@@ -170,9 +173,9 @@ fn values(
     let mut ids = named_elements(text);
     // Of a project the text does not have all things.
     let written: HashSet<&str> = ids.iter().map(|named| named.id).collect();
-    let planned = names.plan.map_or(&[][..], StagePlan::things).iter();
-    let shared = planned.filter(|thing| !written.contains(&*thing.id));
-    ids.extend(shared.map(|thing| NamedElement { kind: thing.kind, id: &thing.id, points: Vec::new() }));
+    let shared = names.project.into_iter().flat_map(StageProject::things);
+    let shared = shared.filter(|(_, id)| !written.contains(id));
+    ids.extend(shared.map(|(kind, id)| NamedElement { kind, id, points: Vec::new() }));
     let model = |who: Option<&str>| model_of(names.plan, who);
     match attribute {
         "who" => things(&ids, |kind| element.who.contains(&kind)),

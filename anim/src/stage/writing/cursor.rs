@@ -145,7 +145,7 @@ fn named<'a>(
 ) -> CursorPlace<'a> {
     let is_written = all.get(open + 1).is_some_and(|token| token.range == name && !name.is_empty());
     let next = all.get(open + 1 + usize::from(is_written));
-    let part = |token: &ScriptToken| text.get(token.range.clone()).unwrap_or_default().to_owned();
+    let part = |token: &ScriptToken| text.get(token.range.clone()).unwrap_or_default();
     match (text.get(all[open].range.clone()), around) {
         (Some("</"), Some(around)) => {
             let end = next.filter(|next| part(next) == ">").map_or(name.end, |next| next.range.end);

@@ -117,14 +117,19 @@ impl ScriptLexer<'_> {
     fn value(&mut self, quote: u8) {
         let rest = &self.bytes[self.at + 1..];
         let closed = rest.iter().position(|&byte| byte == quote);
-        let line = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
+        // Looked for only as far as the value goes, since a text may be one long line.
+        let until = &rest[..closed.unwrap_or(rest.len())];
+        let line = until.iter().position(|&byte| byte == b'\n');
         let length = match closed {
             // A value may have several lines; one that contains the start of an element was not closed.
-            Some(closed) if closed < line || !rest[..closed].contains(&b'<') => {
-                let next = next_attribute(&rest[..closed]).filter(|_| opens_another(rest, closed));
+            Some(closed) if line.is_none() || !until.contains(&b'<') => {
+                let next = opens_another(rest, closed).then(|| next_attribute(until)).flatten();
                 next.unwrap_or(closed + 1)
             }
-            Some(_) | None => next_attribute(&rest[..line]).unwrap_or_else(|| without_end(&rest[..line])),
+            Some(_) | None => {
+                let first = &until[..line.unwrap_or(until.len())];
+                next_attribute(first).unwrap_or_else(|| without_end(first))
+            }
         };
         self.add(TokenKind::Value, self.at + 1 + length);
     }

@@ -241,10 +241,5 @@ impl BoneSelection {
 
 /// Returns the nearest visible ancestor.
 fn shown_parent(skeleton: &Skeleton, hidden: &HiddenBones, bone: BoneIndex) -> Option<BoneIndex> {
-    let parent = |bone: BoneIndex| {
-        let parent = skeleton.bones.get(bone as usize)?.parent;
-        // Parents have smaller indices, so this ends for any data.
-        parent.filter(|&parent| parent < bone)
-    };
-    std::iter::successors(parent(bone), |&bone| parent(bone)).find(|&bone| !hidden.is_hidden(bone))
+    skeleton.ancestors(bone).find(|&bone| !hidden.is_hidden(bone))
 }

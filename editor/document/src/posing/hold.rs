@@ -1,7 +1,7 @@
 //! The state of a drag: the pose at its start, the pinned bones, and whether chains of bones follow (inverse
 //! kinematics).
 
-use super::reach::{ChainSolver, Reaching, parent_of, row};
+use super::reach::{ChainSolver, Reaching, row};
 use crate::edit::{BonePose, BoneRef};
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::ik::ChainScratch;
@@ -124,8 +124,7 @@ impl PoseDragState {
     /// Returns a position of the scene in the space of a bone's parent at the start of the drag; `None` where that
     /// space has no volume.
     pub fn in_parent(&self, bone: BoneIndex, place: Vec3) -> Option<Vec3> {
-        let parent =
-            parent_of(&self.skeleton, bone).and_then(|parent| self.begun_to_root.get(parent as usize));
+        let parent = self.skeleton.parent(bone).and_then(|parent| self.begun_to_root.get(parent as usize));
         let parent = parent.copied().unwrap_or(Mat4::IDENTITY).as_dmat4();
         let place = parent.inverse().transform_point3(place.as_dvec3()).as_vec3();
         place.is_finite().then_some(place)
@@ -133,7 +132,7 @@ impl PoseDragState {
 
     /// Returns whether moving this bone rotates those above it.
     pub fn moves_by_chain(&self, bone: BoneIndex) -> bool {
-        self.mode.on && parent_of(&self.skeleton, bone).is_some()
+        self.mode.on && self.skeleton.parent(bone).is_some()
     }
 
     /// Returns the position of a bone at the start of the drag, scene space.
@@ -142,8 +141,7 @@ impl PoseDragState {
     }
 
     fn is_below(&self, bone: BoneIndex, above: &BTreeSet<BoneIndex>) -> bool {
-        let parent = |bone: &BoneIndex| parent_of(&self.skeleton, *bone);
-        std::iter::successors(Some(bone), parent).any(|bone| above.contains(&bone))
+        self.skeleton.with_ancestors(bone).any(|bone| above.contains(&bone))
     }
 
     /// Returns the position of the pole bone at the start of the drag, towards which the chain bends.
@@ -188,7 +186,7 @@ pub fn poses_of_drag(hold: &mut PoseDragState, poses: &[BonePose], goals: &[Goal
     let mut rows: Vec<Reaching> = Vec::new();
     for goal in goals.iter().filter(|goal| (goal.bone as usize) < bones) {
         let length = hold.mode.length;
-        if parent_of(&hold.skeleton, goal.bone).is_none() {
+        if hold.skeleton.parent(goal.bone).is_none() {
             continue;
         }
         let row: Vec<BoneIndex> = row(&hold.skeleton, goal.bone, length).collect();
@@ -208,7 +206,7 @@ pub fn poses_of_drag(hold: &mut PoseDragState, poses: &[BonePose], goals: &[Goal
         .iter()
         .filter(|pin| {
             // Bones that are dragged are not held, and bones with nothing moved above them need not be.
-            let parent = parent_of(&hold.skeleton, pin.bone);
+            let parent = hold.skeleton.parent(pin.bone);
             let is_goal = goals.iter().any(|goal| goal.bone == pin.bone);
             let is_given = given.iter().any(|(bone, _)| *bone == pin.bone);
             !is_goal && !is_given && parent.is_some_and(|parent| hold.is_below(parent, &moved))
@@ -230,7 +228,7 @@ pub fn poses_of_drag(hold: &mut PoseDragState, poses: &[BonePose], goals: &[Goal
 pub fn poses_of_pins(hold: &mut PoseDragState) -> Vec<BonePose> {
     hold.poses.copy_from_slice(&hold.begun);
     hold.to_root.copy_from_slice(&hold.begun_to_root);
-    let hangs = |pin: &&PinnedPose| parent_of(&hold.skeleton, pin.bone).is_some();
+    let hangs = |pin: &&PinnedPose| hold.skeleton.parent(pin.bone).is_some();
     let held: Vec<PinnedPose> = hold.pins.iter().filter(hangs).copied().collect();
     let mut turned: BTreeSet<BoneIndex> = BTreeSet::new();
     for pin in &held {

@@ -34,15 +34,9 @@ pub(super) struct ChainSolver<'a> {
     pub(super) scratch: &'a mut ChainScratch,
 }
 
-/// Returns the parent of a bone. A parent that does not come before its child counts as none.
-pub(super) fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
-    skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
-}
-
 /// Returns the bones above `end` that rotate, the nearest first: at most `length` of them.
 pub(super) fn row(skeleton: &Skeleton, end: BoneIndex, length: u32) -> impl Iterator<Item = BoneIndex> + '_ {
-    let parent = |bone: &BoneIndex| parent_of(skeleton, *bone);
-    std::iter::successors(parent_of(skeleton, end), parent).take(length.max(1) as usize)
+    skeleton.ancestors(end).take(length.max(1) as usize)
 }
 
 impl ChainSolver<'_> {
@@ -124,7 +118,9 @@ impl ChainSolver<'_> {
 
     /// Gives a bone this rotation in scene space.
     pub(super) fn turn_to(&mut self, bone: BoneIndex, rotation: Quat) {
-        let parent = parent_of(self.skeleton, bone)
+        let parent = self
+            .skeleton
+            .parent(bone)
             .and_then(|parent| self.to_root.get(parent as usize))
             .map_or(Quat::IDENTITY, |matrix| matrix.to_scale_rotation_translation().1);
         let local = parent.inverse() * rotation;

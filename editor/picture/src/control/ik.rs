@@ -46,12 +46,10 @@ impl GraphicComponent for IkGraphic {
             (at.is_finite() && !frame.look.hidden.is_hidden(bone)).then_some(at)
         };
         if let Some((end, length)) = look.chain {
-            let bones = &frame.model.loaded().model.animation.skeleton.bones;
-            // A parent that does not precede its child is ignored, so the chain ends.
-            let parent = |bone: &BoneIndex| bones.get(*bone as usize)?.parent.filter(|parent| parent < bone);
+            let skeleton = &frame.model.loaded().model.animation.skeleton;
             let mut below = joint(end);
             let mut middle = None;
-            for bone in std::iter::successors(parent(&end), parent).take(length as usize) {
+            for bone in skeleton.ancestors(end).take(length as usize) {
                 let at = joint(bone);
                 if let (Some(from), Some(to)) = (at, below) {
                     shape.add_line(from, to, GizmoRole::View, 0.9);
@@ -59,7 +57,7 @@ impl GraphicComponent for IkGraphic {
                 middle = middle.or(at);
                 below = at;
             }
-            if let (Some(root), Some(_)) = (below.filter(|_| parent(&end).is_some()), middle)
+            if let (Some(root), Some(_)) = (below.filter(|_| skeleton.parent(end).is_some()), middle)
                 && let Some(unit) = unit(root)
             {
                 shape.add_diamond(root, right * ROOT * unit, up * ROOT * unit, GizmoRole::View, 0.9);

@@ -89,10 +89,8 @@ fn mapped<T: Copy>(channel: &Channel<T>, map: impl Fn(T) -> T) -> Channel<T> {
 
 /// Returns the nearest humanoid bone above a bone, by its place in `humans`.
 fn parent(skeleton: &Skeleton, humans: &[HumanBone], bone: BoneIndex) -> Option<u32> {
-    let above = |&bone: &BoneIndex| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
-    let mut above = std::iter::successors(above(&bone), above);
     let place = |bone| humans.iter().position(|human| human.bone == bone).map(|place| place as u32);
-    above.find_map(place)
+    skeleton.ancestors(bone).find_map(place)
 }
 
 /// Returns the direction of a side in a T-pose that looks along +Z, and the name without the side.

@@ -7,7 +7,7 @@ use dragonfly_anim::data::{
     AnimationData, Channel, Interpolation, ModelData, MorphTrack, Skeleton, Take, Track, Transform,
 };
 use dragonfly_anim::format::ExportError;
-use dragonfly_anim::frames::{MOST_POSES, frame_rate};
+use dragonfly_anim::frames::{MOST_POSES, frame_rate, frames_over};
 use dragonfly_anim::sample::sample_morph_weights;
 use glam::{DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 use std::sync::Arc;
@@ -134,7 +134,7 @@ fn framed_take(
     is_scaled: bool,
 ) -> Result<Take, ExportError> {
     let bones = skeleton.len();
-    let frames = (f64::from(take.length.max(0.0)) * f64::from(rate) - 0.02).ceil().max(0.0) as usize + 1;
+    let frames = frames_over(f64::from(take.length.max(0.0)), f64::from(rate));
     let poses = frames.saturating_mul(bones.max(1));
     if poses > MOST_POSES {
         return Err(ExportError::new(format!(

@@ -253,8 +253,8 @@ impl ScriptPanel {
         let played = scene.plan.iter().flat_map(|plan| plan.sounds());
         let sounds: BTreeSet<&str> = played.map(|sound| &*sound.source).collect();
         let sounds = Vec::from_iter(sounds);
-        let names =
-            CompletionNames { plan: scene.plan.as_deref(), models: &models, lines: &lines, sounds: &sounds };
+        let (plan, project) = (scene.plan.as_deref(), scene.project.as_deref());
+        let names = CompletionNames { plan, project, models: &models, lines: &lines, sounds: &sounds };
         let found = completions(&self.buffer, at, &names);
         // Unasked, a list appears only where something of the word is typed, or a tag or value begins.
         let begins = self.buffer.get(..at).is_some_and(|text| text.ends_with(['<', '"', '\'', '.', '/']));
