@@ -137,7 +137,7 @@ def write_all(name, path, formats, folder):
         output, reason = dragonfly("edit", before, "--edits", edits, "-o", after)
         if output is not None:
             files.append(Written(name, how, after).look())
-        elif not any(why in reason for why in ("no take", "only be read", "cannot be edited")):
+        elif not any(why in reason for why in ("no take", "no bone", "only be read", "cannot be edited")):
             failed = Written(name, how, after)
             failed.error = f"not edited: {reason}"
             files.append(failed)
