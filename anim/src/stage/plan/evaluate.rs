@@ -14,7 +14,7 @@ use crate::fast::matrix::{mat4, transform_point};
 use crate::fast::to_root;
 use crate::ik::{LookAt, look_at};
 use crate::stage::ease::smooth;
-use crate::stage::scene::{PlayingSound, ShownTitle, StageScene, StageScratch, ThingState};
+use crate::stage::scene::{ShownTitle, StageScene, StageScratch, ThingState};
 use crate::stage::time::StageTime;
 use glam::{DVec3, Vec3};
 
@@ -31,11 +31,7 @@ pub(super) fn evaluate(plan: &StagePlan, time: StageTime, scene: &mut StageScene
     scene.titles.clear();
     let titles = plan.titles.iter().enumerate().map(|(title, cue)| (title, cue.span.weight(time) as f32));
     scene.titles.extend(titles.filter(|one| one.1 > 0.0).map(|(title, weight)| ShownTitle { title, weight }));
-    scene.sounds.clear();
-    scene.sounds.extend(plan.sounds.iter().enumerate().filter_map(|(sound, cue)| {
-        let seconds = cue.time(time)?.seconds();
-        Some(PlayingSound { sound, seconds, gain: (cue.gain * cue.span.weight(time)) as f32 })
-    }));
+    plan.playing_sounds(time, &mut scene.sounds);
 }
 
 /// Computes the place of one thing at `time`, and of what that needs. The other things of `scene` stay as they are.

@@ -27,7 +27,9 @@ pub use placement::Placement;
 pub use thing::PlannedThing;
 
 use super::assets::StageAssets;
-use super::scene::{EffectState, LightState, StageCamera, StageScene, StageScratch, ThingPose, ThingState};
+use super::scene::{
+    EffectState, LightState, PlayingSound, StageCamera, StageScene, StageScratch, ThingPose, ThingState,
+};
 use super::schedule::Schedule;
 use super::script::{ScriptError, StageScript};
 use super::time::{StageRate, StageTime};
@@ -196,6 +198,15 @@ impl StagePlan {
     /// Returns the sounds.
     pub fn sounds(&self) -> &[SoundCue] {
         &self.sounds
+    }
+
+    /// Writes the sounds that are heard at `time`, in the order of [`Self::sounds`]. Allocates only where more are heard than `out` has room for.
+    pub fn playing_sounds(&self, time: StageTime, out: &mut Vec<PlayingSound>) {
+        out.clear();
+        out.extend(self.sounds.iter().enumerate().filter_map(|(sound, cue)| {
+            let seconds = cue.time(time)?.seconds();
+            Some(PlayingSound { sound, seconds, gain: (cue.gain * cue.span.weight(time)) as f32 })
+        }));
     }
 
     /// Returns the place of a thing at `time` by its motions alone, as if nothing held it; `None` past the end.

@@ -1,0 +1,78 @@
+//! Playing a mix: commands from the main thread, and the device that asks for samples in a thread of its own.
+
+#[cfg(feature = "audio")]
+mod device;
+mod voice;
+
+pub use voice::{OutputCommand, OutputVoice, SoundClock};
+
+use flume::{Receiver, Sender};
+
+/// Commands that may wait for the device, which takes them many times a second.
+const WAITING: usize = 64;
+
+/// Reasons why no sound is heard.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OutputError {
+    /// The program was built without the feature `audio`.
+    #[error("this program was built without sound output (feature \"audio\")")]
+    NotBuilt,
+    /// There is no device, or it cannot be used.
+    #[error("no sound is heard: {0}")]
+    Device(String),
+}
+
+/// An audio device that plays what it is told. It stops when this is dropped.
+pub struct SoundOutput {
+    commands: Sender<OutputCommand>,
+    /// Mixes that the device no longer plays: their memory is freed here, since freeing takes time that the device does not have.
+    used: Receiver<OutputCommand>,
+    failures: Receiver<String>,
+    #[cfg(feature = "audio")]
+    _device: device::OpenDevice,
+}
+
+impl std::fmt::Debug for SoundOutput {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "SoundOutput({} commands wait)", self.commands.len())
+    }
+}
+
+impl SoundOutput {
+    /// Opens the default device of the system, silent until the first command.
+    ///
+    /// # Errors
+    ///
+    /// There is no device, or the program has no sound output.
+    pub fn open() -> Result<Self, OutputError> {
+        let (commands, waiting) = flume::bounded(WAITING);
+        let (freed, used) = flume::bounded(WAITING);
+        let (fail, failures) = flume::bounded::<String>(1);
+        let voice = OutputVoice::new(waiting, freed);
+        #[cfg(feature = "audio")]
+        {
+            let device = device::OpenDevice::open(voice, fail)?;
+            Ok(Self { commands, used, failures, _device: device })
+        }
+        #[cfg(not(feature = "audio"))]
+        {
+            drop((voice, fail, commands, used, failures));
+            Err(OutputError::NotBuilt)
+        }
+    }
+
+    /// Sends a command. Returns the reason where the device no longer works; it is never asked twice.
+    ///
+    /// # Errors
+    ///
+    /// The device was unplugged, or does not take commands any more.
+    pub fn send(&self, command: OutputCommand) -> Result<(), OutputError> {
+        self.used.try_iter().for_each(drop);
+        if let Ok(reason) = self.failures.try_recv() {
+            return Err(OutputError::Device(reason));
+        }
+        self.commands
+            .try_send(command)
+            .map_err(|_| OutputError::Device("the device does not answer".to_owned()))
+    }
+}
