@@ -24,6 +24,20 @@ impl Drag {
         Self { wire, own, selection, list }
     }
 
+    /// Takes the pointer, as a program does from which something is dragged: no other one is told of its movements.
+    pub(crate) fn take_pointer(&mut self) {
+        let (root, to_root_alone) = (self.wire.root, 0);
+        // No events; pointer and keyboard go on.
+        let body = [words(&[root]), vec![0, 0, 1, 1], words(&[0, 0, 0])].concat();
+        let reply = self.wire.ask(26, to_root_alone, &body).expect("an answer");
+        assert_eq!(reply[1], 0, "another program has the pointer");
+    }
+
+    /// Gives the pointer back.
+    pub(crate) fn give_pointer_back(&mut self) {
+        self.wire.tell(27, 0, &words(&[0]));
+    }
+
     /// Drags the files with these addresses over the middle of `window`, and holds them there until they are dropped.
     ///
     /// Returns whether the window accepts them.

@@ -133,6 +133,7 @@ mod timeline_sound;
 mod timeline_weight;
 mod undo_selection;
 mod unplugged;
+mod user_texts;
 mod viewport_control;
 mod viewport_hidden;
 mod viewport_tools;

@@ -3,8 +3,11 @@
 use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::workbench::Window;
 use dragonfly::panels::request::FileAction;
+use dragonfly::panels::scene::{NewThing, with_new_thing};
 use dragonfly::panels::{Effect, Request};
+use dragonfly_anim::stage::script::StageScript;
 use dragonfly_document::{Change, Source, Then};
+use dragonfly_kit::counting::count;
 use std::path::{Path, PathBuf};
 
 /// Drops files, and gives the change that follows to the document. Returns what else follows.
@@ -41,9 +44,10 @@ fn several_dropped_models_are_added_in_one_step_and_selected() {
     assert_eq!(window.state().steps(), (1, 1));
     let read = window.state().state.read();
     assert_eq!(read.scene_editing.things().len(), 2, "{:?}", read.scene_editing.things());
-    assert_eq!(read.sound.settings().file, Path::new("step.wav"), "the sound beside them is shown");
-    let said = read.status.lines().any(|message| message.text.contains("notes.txt"));
-    assert!(said, "a file that is no model is named");
+    for (file, reason) in [("notes.txt", "Not added"), ("step.wav", "not in the folder of the scene")] {
+        let of_file = |text: &str| text.contains(file) && text.contains(reason);
+        assert!(read.status.lines().any(|message| of_file(&message.text)), "{file} is named");
+    }
     window.state_mut().change(Change::Undo);
     assert_eq!(text(&window), FOXES);
 }
@@ -53,7 +57,45 @@ fn a_dropped_sound_is_no_role() {
     let mut window = scene(FOXES).window();
     assert_eq!(drop_files(&mut window, &["music.flac"]), None);
     assert_eq!((text(&window).as_str(), window.state().steps()), (FOXES, (0, 0)));
-    assert_eq!(window.state().state.read().sound.settings().file, Path::new("music.flac"));
+    let read = window.state().state.read();
+    assert_eq!(read.sound.settings().file, Path::new(""), "scenes do not show the sound of a model");
+    assert!(read.status.lines().any(|message| message.text.contains("music.flac is not in the folder")));
+}
+
+#[test]
+fn a_sound_from_the_folder_of_the_scene_begins_at_the_playhead_and_is_added_in_one_step_with_models() {
+    let mut window = scene(FOXES).window();
+    window.state_mut().state.execute(Request::Seek(1.5));
+    window.run_steps(2);
+    assert_eq!(drop_files(&mut window, &["/scenes/sounds/thunder.wav"]), None);
+    let sound = r#"<sound src="sounds/thunder.wav" begin="1.5"/>"#;
+    assert_eq!((new_lines(FOXES, &text(&window)), window.state().steps()), (vec![sound.to_owned()], (1, 1)));
+    let read = window.state().state.read();
+    let plan = read.scene().and_then(|scene| scene.plan.clone()).expect("a plan");
+    assert_eq!(plan.sounds().len(), 1, "the sound is a part of the scene");
+    // By its path it is opened like that, too.
+    let open = Request::Open(Source::File("/scenes/rain.ogg".into()));
+    let effect = window.state_mut().state.execute(open);
+    assert!(matches!(effect, Some(Effect::Change(_))), "{effect:?}");
+    window.state_mut().change(Change::Undo);
+    window.run_steps(2);
+    assert_eq!(text(&window), FOXES);
+    drop_files(&mut window, &["/scenes/rain.ogg", "/scenes/Fox.glb"]);
+    let new = new_lines(FOXES, &text(&window));
+    assert_eq!((new.len(), window.state().steps()), (2, (1, 1)), "{new:?}");
+    assert!(new[0].starts_with("<role") && new[1].contains("rain.ogg"), "{new:?}");
+}
+
+#[test]
+fn a_new_thing_costs_one_reading_of_the_script() {
+    let marks: String = (0..2_000).map(|at| format!("    <mark id=\"m{at}\" at=\"{at} 0 0\"/>\n")).collect();
+    let text = FOXES.replace("  </cast>\n", &format!("{marks}  </cast>\n"));
+    let read = || StageScript::read(text.as_str()).expect("a script");
+    let (once, script) = count(read);
+    let (added, new) = count(|| with_new_thing(&script, &NewThing::Mark));
+    let (script, id) = new.expect("a script");
+    assert_eq!((&*id, script.things().len()), ("mark", 2_008));
+    assert!(added.allocations < once.allocations * 5 / 4, "{added:?}, of one reading {once:?}");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
+use dragonfly_kit::counting::count;
 use dragonfly_picture::PosedScene;
 use glam::DVec3;
 
@@ -37,7 +38,7 @@ fn a_thing_that_is_moved_stays_on_the_ground_while_it_snaps() {
     run(&mut window, Id::SpaceWorld);
     select(&mut window, &["ben"]);
     let letter = Key::letter;
-    // Up by two meters and to the side by one.
+    // Along x by one meter.
     let typed = [letter('x'), letter('1'), Key::Enter];
     run(&mut window, Id::MoveNow);
     type_keys(&mut window, &typed);
@@ -111,4 +112,25 @@ fn models_that_are_dropped_together_stand_side_by_side_a_meter_apart() {
     for pair in places.windows(2) {
         assert!((pair[1] - pair[0]).distance(DVec3::X) < 1e-9, "{places:?}");
     }
+}
+
+#[test]
+fn only_props_that_are_moved_are_posed_to_find_the_ground() {
+    let roles: String = (0..200)
+        .map(|at| format!("    <role id=\"r{at}\" model=\"Fox.glb\" at=\"{at} 0 9\" scale=\"0.01\"/>\n"))
+        .collect();
+    let mut window = scene(&floating().replace("  </cast>\n", &format!("{roles}  </cast>\n"))).window();
+    let view = window.state().state.read().scene().cloned().expect("a scene");
+    let (all, _) = count(|| PosedScene::new(&view, &[], None).map(|mut posed| posed.pose(0.0)));
+    let mut needed = |id: &str| {
+        select(&mut window, &[id]);
+        let (count, effect) = count(|| window.state_mut().state.execute(Request::Command(Id::DropToGround)));
+        assert!(matches!(effect, Some(Effect::Change(_))), "{effect:?}");
+        count.bytes
+    };
+    let [role, prop] = [needed("ben"), needed("toy")];
+    assert!(
+        role < prop && prop < role + all.bytes / 4,
+        "{role} for a role, {prop} for a prop, {all:?} for all"
+    );
 }

@@ -1,11 +1,15 @@
 //! Paths of a scene as they are drawn, also of very many of them.
 
 use crate::scene_bench::{FOXES, scene};
+use crate::scene_lines::{at, send};
+use crate::workbench::Window;
+use dragonfly::control::{Button, InputEvent};
 use dragonfly::panels::Request;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{SceneView, View};
+use glam::DVec3;
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -69,4 +73,47 @@ fn a_newer_plan_and_another_selection_leave_the_drawn_lines_as_they_are() {
     let other = Some(Arc::new(DrawnLines::read(LINES.replace("3 0 0", "4 0 0")).expect("lines")));
     let third = show(view.generation + 3, &other);
     assert_eq!(third[1].points.last().map(|point| point.x), Some(4.0), "a line that was changed was");
+}
+
+#[test]
+fn while_something_is_dragged_other_paths_are_kept_and_after_it_all_are_drawn_anew() {
+    let script = FOXES.replace("    <mark ", "    <path id=\"other\" points=\"0 0 3  2 0 3\"/>\n    <mark ");
+    let mut window = scene(&script).window();
+    let looks = |window: &Window| window.state().state.read().scene_editing.lines().looks().clone();
+    let select = SceneRequest::SelectThings(vec!["other".into()], Choice::Replace);
+    window.state_mut().state.execute(Request::Scene(select));
+    window.run_steps(2);
+    let before = looks(&window);
+    assert_eq!(before.len(), 2);
+    let [from, to] = [2.0, 1.5].map(|x| at(&window, DVec3::new(x, 0.0, 3.0)));
+    send(&mut window, InputEvent::MouseMove(from));
+    send(&mut window, InputEvent::MouseDown(Button::Left));
+    send(&mut window, InputEvent::MouseMove(to));
+    let during = looks(&window);
+    assert!(
+        Arc::ptr_eq(&before[0].dots, &during[0].dots),
+        "the feet on the other path were not looked for again"
+    );
+    assert!(
+        during[1].points.last().is_some_and(|end| (end.x - 1.5).abs() < 0.02),
+        "the path that is dragged"
+    );
+    send(&mut window, InputEvent::MouseUp(Button::Left));
+    window.run_steps(2);
+    let after = looks(&window);
+    assert!(!Arc::ptr_eq(&before[0].dots, &after[0].dots) && before[0] == after[0]);
+    assert_eq!(during[1], after[1]);
+}
+
+#[test]
+fn footprints_of_a_walk_are_those_of_its_action() {
+    let bench = scene(FOXES);
+    let plan = bench.state.read().scene().and_then(|scene| scene.plan.clone()).expect("a plan");
+    let walks: Vec<_> = plan.path_walks().collect();
+    assert_eq!(walks.len(), 1, "ben walks");
+    let [walk] = walks[..] else { panic!("{walks:?}") };
+    assert_eq!(&*plan.things()[walk.thing].id, "ben");
+    let prints = plan.footprints_of(walk);
+    assert!(prints.len() >= 3 && prints == plan.footprints(walk.thing, walk.action), "{prints:?}");
+    assert_eq!(plan.stride_of(walk), plan.stride_on_path(walk.thing, walk.action));
 }

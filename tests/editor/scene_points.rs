@@ -9,6 +9,7 @@ use dragonfly::panels::scene::SceneRequest;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
+use dragonfly_kit::counting::count;
 use glam::{DVec3, Vec2};
 
 fn select(window: &mut Window, ids: &[&str]) {
@@ -74,6 +75,23 @@ fn shift_moves_a_point_up_and_ctrl_snaps_it() {
     send(&mut window, modifiers(false, true));
     drag(&mut window, DVec3::X, DVec3::new(1.3, 0.0, 0.7), None);
     assert_eq!(points(&new_lines(FOXES, &text(&window))[0])[2], DVec3::new(1.25, 0.0, 0.75));
+}
+
+#[test]
+fn ctrl_snaps_a_point_only_on_the_axes_that_the_drag_moves() {
+    let start = DVec3::new(1.1, 0.1, 0.6);
+    let script = FOXES.replace("  1 0 0\" curve", "  1.1 0.1 0.6\" curve");
+    let mut window = scene(&script).window();
+    select(&mut window, &["aisle"]);
+    let modifiers = |shift| InputEvent::Modifiers(Modifiers { shift, ctrl: true, ..Modifiers::default() });
+    send(&mut window, modifiers(false));
+    drag(&mut window, start, DVec3::new(1.3, 0.1, 0.7), None);
+    assert_eq!(points(&new_lines(&script, &text(&window))[0])[2], DVec3::new(1.25, 0.1, 0.75));
+    window.state_mut().change(Change::Undo);
+    window.run_steps(2);
+    send(&mut window, modifiers(true));
+    drag(&mut window, start, start + DVec3::Y * 0.4, None);
+    assert_eq!(points(&new_lines(&script, &text(&window))[0])[2], DVec3::new(1.1, 0.5, 0.6));
 }
 
 #[test]
@@ -145,4 +163,39 @@ fn paths_show_where_feet_land_and_where_they_bend_too_much() {
     assert!(tight.ink != parts[0].ink && tight.dots.is_empty() && tight.points.len() > 1);
     let turn = tight.points[tight.points.len() / 2];
     assert!(turn.distance(glam::Vec3::new(0.0, 0.0, 0.6)) < 0.2, "the turn is at {turn}");
+}
+
+#[test]
+fn a_drag_of_a_point_among_many_lines_reads_none_of_them_and_sends_no_place_twice() {
+    let script = FOXES.replace("points=\"-1 0 0  0 0 0.6  1 0 0\" curve=\"smooth\"", "line=\"way\"");
+    let more: String = (0..2_000)
+        .map(|at| format!("  <line id=\"l{at}\" points=\"{at} 0 9  {at} 1 9  {at} 2 9  {at} 3 9\"/>\n"))
+        .collect();
+    let lines = LINES.replace("</lines>", &format!("{more}</lines>"));
+    let mut window = project(&script, &lines).window();
+    select(&mut window, &["aisle"]);
+    let [from, first, second] =
+        [DVec3::ZERO, DVec3::new(0.1, 0.0, 0.1), DVec3::new(0.2, 0.0, 0.3)].map(|place| at(&window, place));
+    send(&mut window, InputEvent::MouseMove(from));
+    send(&mut window, InputEvent::MouseDown(Button::Left));
+    send(&mut window, InputEvent::MouseMove(first));
+    let moved = |window: &mut Window, to: Vec2| {
+        let mut effects = Vec::new();
+        let state = &mut window.state_mut().state;
+        let (count, ()) = count(|| {
+            state.input(InputEvent::MouseMove(to), &mut effects);
+        });
+        (count.allocations, effects.len())
+    };
+    let (allocations, effects) = moved(&mut window, second);
+    assert_eq!(effects, 1);
+    assert!(allocations < 1_000, "{allocations} allocations, and the file has 2,001 lines");
+    assert_eq!(moved(&mut window, second).1, 0, "the point is there already");
+    // The same for the points of a path.
+    let mut window = scene(FOXES).window();
+    select(&mut window, &["aisle"]);
+    let end = at(&window, DVec3::X);
+    send(&mut window, InputEvent::MouseMove(end));
+    send(&mut window, InputEvent::MouseDown(Button::Left));
+    assert_eq!([moved(&mut window, first).1, moved(&mut window, first).1], [1, 0]);
 }

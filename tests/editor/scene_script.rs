@@ -24,7 +24,7 @@ pub(crate) fn put_cursor(window: &mut Window, at: usize) {
 }
 
 /// Types letters one after the other.
-fn type_text(window: &mut Window, text: &str) {
+pub(crate) fn type_text(window: &mut Window, text: &str) {
     for letter in text.chars() {
         window.event(Event::Text(letter.to_string()));
         window.run_steps(1);

@@ -12,6 +12,10 @@ fn time(window: &Window) -> f32 {
     window.state().state.read().time()
 }
 
+fn said(window: &Window) -> String {
+    window.state().state.read().status.last().map(|message| message.text.clone()).unwrap_or_default()
+}
+
 #[test]
 fn a_click_on_a_shot_goes_to_its_start_and_selects_it() {
     let mut window = scene(FOXES).window();
@@ -37,6 +41,29 @@ fn commands_go_from_shot_to_shot() {
     {
         run(&mut window, id);
         assert_eq!(time(&window), expected, "{id:?}");
+    }
+}
+
+#[test]
+fn a_shot_that_begins_between_frames_is_left_and_shown_like_others() {
+    // As a number of single precision, the one is before its time and the other one after it.
+    for begin in ["1.01", "1.1"] {
+        let script = FOXES.replace("begin=\"looks.end\" blend", &format!("begin=\"{begin}\" blend"));
+        let mut window = scene(&script).window();
+        let seen = |window: &Window| {
+            let read = window.state().state.read();
+            shot_at(shots_of(read.scene_editing.lanes()), read.scene_time())
+        };
+        run(&mut window, Id::NextShot);
+        let start = time(&window);
+        assert_eq!((start, seen(&window)), (start.max(begin.parse().expect("a number")), Some(1)), "{begin}");
+        run(&mut window, Id::NextShot);
+        assert_eq!((time(&window), said(&window)), (start, "There is no shot on that side".to_owned()));
+        run(&mut window, Id::PreviousShot);
+        assert_eq!((time(&window), seen(&window)), (0.0, Some(0)), "{begin}");
+        window.get_by_label_contains("Shot 2, close").click();
+        window.run_steps(3);
+        assert_eq!((time(&window), seen(&window)), (start, Some(1)), "{begin}");
     }
 }
 

@@ -1,6 +1,7 @@
 //! A scene in the real window: a fox is clicked and dragged in the viewport, the shot is looked through, and everything is undone.
 
-use crate::scene_bench::FOXES;
+use crate::drag::{Drag, address};
+use crate::scene_bench::{FOXES, new_lines};
 use crate::screen::key;
 use crate::window::alone;
 use crate::window_bone_rotation::numbers;
@@ -51,5 +52,30 @@ fn a_thing_is_clicked_dragged_and_seen_through_the_shot_and_undo_restores_the_te
     visit.control_and(key::Z);
     visit.until_steps(0, 1);
     assert_eq!(visit.save(), FOXES.as_bytes(), "everything is undone");
+    visit.end();
+}
+
+#[test]
+fn a_model_that_is_dropped_from_another_program_stands_where_the_pointer_is() {
+    let _one = alone();
+    let mut visit = Visit::of_scene("scene drop", FOXES);
+    visit.control("Lanes of the scene");
+    visit.until("a framed scene", |visit| (camera(visit).distance > 1.5).then_some(()));
+    let wanted = DVec3::new(0.5, 0.0, 1.0);
+    let at = place(&mut visit, wanted).round();
+    let mut drag = Drag::new(&visit.screen);
+    drag.take_pointer();
+    visit.screen.point(at.x as i16, at.y as i16);
+    let file = visit.folder.join("Fox.glb");
+    assert!(drag.hold(visit.editor.window, &[address(&file)]), "the window does not take files");
+    drag.drop(visit.editor.window);
+    drag.give_pointer_back();
+    visit.until_steps(1, 1);
+    let text = String::from_utf8(visit.save()).expect("a text");
+    let new = new_lines(FOXES, &text);
+    let found = new[0].split("at=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a place");
+    let found: Vec<f64> = found.split(' ').map(|number| number.parse().expect("a number")).collect();
+    // A pixel of the ground, seen from the side.
+    assert!(DVec3::from_slice(&found).distance(wanted) < 0.05, "{new:?}");
     visit.end();
 }

@@ -124,7 +124,7 @@ pub use ease::StageEase;
 pub use live::LiveStage;
 pub use model::{FootContact, StageFoot, StageModel, StageTake};
 pub use path::{PathSpot, StagePath};
-pub use plan::{Footprint, Placement, PlannedThing, SoundCue, StagePlan, TitleCue};
+pub use plan::{Footprint, PathWalk, Placement, PlannedThing, SoundCue, StagePlan, TitleCue};
 pub use scene::{
     EffectState, LightState, PlayingSound, ShownTitle, StageCamera, StageScene, ThingPose, ThingState,
 };

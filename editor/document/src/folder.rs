@@ -80,9 +80,14 @@ impl Folder {
     ///
     /// Links that stay inside the folder are followed.
     pub fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, FileAccessError> {
+        read_regular(self.open(name)?, limit)
+    }
+
+    /// Opens the file `name`, for files that are not read as a whole; otherwise as [`Self::read`].
+    pub fn open(&self, name: &str) -> Result<File, FileAccessError> {
         let resolved = self.path_of(name)?;
         let inside = resolved.strip_prefix(&self.root).map_err(|_| FileAccessError::Outside)?;
-        read_regular(system::open_below(&self.root, inside)?, limit)
+        system::open_below(&self.root, inside)
     }
 }
 
@@ -105,9 +110,13 @@ impl From<FileAccessError> for AssetError {
 
 /// Returns the bytes of a file that the user named. Links are followed, but only to a regular file.
 pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, FileAccessError> {
-    let metadata = std::fs::metadata(path)?;
-    regular(&metadata)?;
-    read_regular(system::open(path)?, limit)
+    read_regular(open_file(path)?, limit)
+}
+
+/// Opens a file that the user named, as [`read_file`] does.
+pub(crate) fn open_file(path: &Path) -> Result<File, FileAccessError> {
+    regular(&std::fs::metadata(path)?)?;
+    system::open(path)
 }
 
 /// Splits `name` into parts that lead only downwards.

@@ -1,6 +1,7 @@
 //! Sound files as peaks for a waveform: WAV, FLAC and Ogg Vorbis. Everything here reads files and is called in jobs.
 
 use super::Cancel;
+use super::folder::open_file;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
@@ -31,15 +32,24 @@ pub struct SoundPeaks {
 }
 
 impl SoundPeaks {
-    /// Reads a sound file.
+    /// Reads a sound file that the user named.
     ///
     /// # Errors
     ///
     /// A sentence for the user: the file cannot be read, is damaged, too long, or of another format.
     pub fn read(path: &Path, cancel: &Cancel) -> Result<Self, String> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let file = open_file(path).map_err(|error| format!("{name} {error}"))?;
+        Self::read_from(file, &name, cancel)
+    }
+
+    /// Reads a sound file that is open; `name` is for messages.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    pub fn read_from(mut file: File, name: &str, cancel: &Cancel) -> Result<Self, String> {
         let wrong = |reason: &dyn std::fmt::Display| format!("{name} cannot be read: {reason}");
-        let mut file = File::open(path).map_err(|error| wrong(&error))?;
         let about = file.metadata().map_err(|error| wrong(&error))?;
         if !about.is_file() || about.len() > LARGEST_FILE {
             return Err(wrong(&format!("it is no file of at most {} GB", LARGEST_FILE >> 30)));

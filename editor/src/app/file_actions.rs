@@ -158,7 +158,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                 }
                 FileChoice::NewScene => Request::NewScene(path),
                 FileChoice::DemoScene => Request::DemoScene(path),
-                FileChoice::Role => Request::AddRoles(vec![path]),
+                FileChoice::Role => Request::AddRole(path),
                 FileChoice::Prop => Request::AddProp(path),
                 FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
                 FileChoice::MappedTakes => {

@@ -3,6 +3,7 @@
 //! It exists before the device and before any model, so the program answers at once (T-093).
 
 use super::accessibility_trace::AccessibilityTrace;
+use super::pointer_place;
 use super::reference_loader::{ReferenceAnswer, ReferenceLoader};
 use super::scene_sounds::{SceneSoundAnswer, SceneSoundLoader};
 use super::sound_loader::{SoundAnswer, SoundLoader};
@@ -244,6 +245,9 @@ impl Interface {
         self.faults.reach(FaultPoint::Input(self.steps()));
         let before = self.egui.egui_input().events.len();
         let response = self.egui.on_window_event(&self.window, event);
+        if let WindowEvent::DroppedFile(_) = event {
+            self.find_pointer();
+        }
         if let WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } = event {
             self.set_desktop_scale(*scale_factor, inner_size_writer);
         }
@@ -264,6 +268,7 @@ impl Interface {
                 self.redraw();
             }
             WindowEvent::Focused(true) => {
+                self.state.scene_sounds().forget_problems();
                 self.effects.push(Effect::File(FileAction::Send(DocumentMessage::LookAtFile)));
                 self.redraw();
             }
@@ -280,6 +285,18 @@ impl Interface {
             self.redraw();
         }
         heard
+    }
+
+    /// Notes where files were dropped: while another program drags them, the window gets no movements of the pointer.
+    fn find_pointer(&mut self) {
+        // There is an event for each file.
+        if self.egui.egui_input().dropped_files.len() > 1 {
+            return;
+        }
+        let scale = self.pixels_per_point();
+        let found = pointer_place::of(&self.window).map(|[x, y]| egui::pos2(x, y) / scale);
+        let event = found.map_or(egui::Event::PointerGone, egui::Event::PointerMoved);
+        self.egui.egui_input_mut().events.push(event);
     }
 
     /// Starts the jobs that the reference picture needs at the time shown.

@@ -13,23 +13,28 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 /// The path of the scene that was written, or the reason why there is none.
-pub(super) type SceneAnswer = Result<PathBuf, String>;
+pub type SceneAnswer = Result<PathBuf, String>;
 
 /// Height of a role in a new scene, meters, where its model is far from human size.
 const HEIGHT: f32 = 1.7;
 
 /// Starts to write a scene of two roles with a model.
 pub(super) fn make(model: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
-    let failed = |reason: &str| -> SceneAnswer { Err(format!("No scene was made: {reason}")) };
-    let work = move |_: &JobContext<SceneAnswer>| written(&model).or_else(|reason| failed(&reason));
-    Job::start(to, "new scene", work, failed)?.detach();
-    Ok(())
+    start_scene(to, move || written(&model))
 }
 
 /// Starts to write the built-in model, and a scene of two roles with it, into a folder.
-pub(super) fn make_demo(folder: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
-    let work = move |_: &JobContext<SceneAnswer>| written(&demo_model(&folder)?);
-    Job::start(to, "new scene", work, |reason: &str| Err(reason.to_owned()))?.detach();
+pub fn make_demo(folder: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
+    start_scene(to, move || written(&demo_model(&folder)?))
+}
+
+fn start_scene(
+    to: &Address<SceneAnswer>,
+    write: impl FnOnce() -> SceneAnswer + Send + 'static,
+) -> std::io::Result<()> {
+    let failed = |reason: &str| -> SceneAnswer { Err(format!("No scene was made: {reason}")) };
+    let work = move |_: &JobContext<SceneAnswer>| write().or_else(|reason| failed(&reason));
+    Job::start(to, "new scene", work, failed)?.detach();
     Ok(())
 }
 
@@ -46,7 +51,7 @@ fn demo_model(folder: &Path) -> Result<PathBuf, String> {
                 write_new(&place, DRAGONFLY_GLB)?;
                 return Ok(place);
             }
-            Err(error) => return Err(format!("Cannot write {}: {error}", place.display())),
+            Err(error) => return Err(format!("Cannot read {}: {error}", place.display())),
         }
     }
     Err(format!("Cannot write to {}", folder.display()))

@@ -1,43 +1,47 @@
 //! Reads the peaks of the sounds of a scene in jobs, one after the other.
 
 use crate::panels::State;
-use crate::panels::status::MessageSeverity;
-use dragonfly_document::{Cancel, SoundPeaks};
+use dragonfly_anim::stage::StagePlan;
+use dragonfly_document::{Cancel, Folder, SoundPeaks};
 use dragonfly_runtime::{Address, Job, JobContext};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Reads the sounds that the script of the open scene names.
 #[derive(Debug, Default)]
-pub(super) struct SceneSoundLoader {
+pub struct SceneSoundLoader {
     /// The number of the document whose sound is read, and the job.
     reading: Option<(u64, Job)>,
+    /// The plan whose sounds were looked at last.
+    plan: Option<Arc<StagePlan>>,
 }
 
 /// The answer of a job: the number of the document, the sound as the script names it, and its peaks.
-pub(super) type SceneSoundAnswer = (u64, String, Result<SoundPeaks, String>);
+pub type SceneSoundAnswer = (u64, String, Result<SoundPeaks, String>);
 
 impl SceneSoundLoader {
-    /// Starts to read the next sound that is not known, unless another one is being read.
-    pub(super) fn update(&mut self, state: &mut State, to: &Address<SceneSoundAnswer>) {
+    /// Starts to read the next sound that is not known, unless another one is being read. While a word of the script is typed, the name of
+    /// a sound may be a part of one, so that nothing is read.
+    pub fn update(&mut self, state: &mut State, to: &Address<SceneSoundAnswer>) {
         let read = state.read();
         let opened = read.scene_editing.sounds().opened();
         // A job for another document is cancelled.
         self.reading.take_if(|(of, _)| *of != opened);
-        if self.reading.is_some() {
-            return;
+        let plan = read.scene().and_then(|scene| scene.plan.clone());
+        let Some(plan) = plan.filter(|_| !read.scene_editing.is_typing(read.dragging.open())) else { return };
+        if !self.plan.as_ref().is_some_and(|old| Arc::ptr_eq(old, &plan)) {
+            state.scene_sounds().keep_named(&plan);
+            self.plan = Some(Arc::clone(&plan));
         }
-        let plan = read.scene().and_then(|scene| scene.plan.as_ref());
-        let Some(source) = plan.and_then(|plan| read.scene_editing.sounds().wanted(plan)).map(str::to_owned)
-        else {
-            return;
-        };
-        let folder = read.model_folder();
+        let read = state.read();
+        let wanted = read.scene_editing.sounds().wanted(&plan).filter(|_| self.reading.is_none());
+        let (Some(source), folder) = (wanted.map(str::to_owned), read.model_folder()) else { return };
         state.scene_sounds().begin(&source);
         let Some(folder) = folder else {
             let reason = "the scene is in no folder yet: save it first".to_owned();
             return state.scene_sounds().receive(&source, Err(reason));
         };
-        let (name, failed_name) = (source.clone(), source);
+        let (name, failed_name) = (source.clone(), source.clone());
         let work = move |job: &JobContext<SceneSoundAnswer>| {
             let peaks = peaks_below(&folder, &name, job.cancel_flag());
             (opened, name, peaks)
@@ -45,31 +49,23 @@ impl SceneSoundLoader {
         let failed = move |reason: &str| (opened, failed_name, Err(reason.to_owned()));
         match Job::start(to, "read sound of a scene", work, failed) {
             Ok(job) => self.reading = Some((opened, job)),
-            Err(error) => state.say(MessageSeverity::Error, format!("The sound could not be read: {error}")),
+            Err(error) => state.scene_sounds().receive(&source, Err(format!("{source}: {error}"))),
         }
     }
 
-    /// Receives the answer of a job.
-    pub(super) fn receive(&mut self, state: &mut State, (opened, source, peaks): SceneSoundAnswer) {
+    /// Receives the answer of a job. The bar of a sound that cannot be read shows why.
+    pub fn receive(&mut self, state: &mut State, (opened, source, peaks): SceneSoundAnswer) {
         if opened != state.read().scene_editing.sounds().opened() {
             return;
         }
         self.reading = None;
-        if let Err(reason) = &peaks {
-            state.say(MessageSeverity::Warning, format!("No sound: {reason}"));
-        }
         state.scene_sounds().receive(&source, peaks);
     }
 }
 
-/// Reads a sound in a folder or below it; a link that leads elsewhere is refused.
+/// Reads a sound in a folder or below it.
 fn peaks_below(folder: &Path, source: &str, cancel: &Cancel) -> Result<SoundPeaks, String> {
-    let missing = |error: std::io::Error| format!("{source}: {error}");
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let (root, file) =
-        (folder.canonicalize().map_err(missing)?, folder.join(source).canonicalize().map_err(missing)?);
-    if !file.starts_with(&root) {
-        return Err(format!("{source} is outside of the folder of the scene"));
-    }
-    SoundPeaks::read(&file, cancel)
+    let file = Folder::new(folder).and_then(|folder| folder.open(source));
+    SoundPeaks::read_from(file.map_err(|error| format!("{source} {error}"))?, source, cancel)
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! drag            moves the point at its height
 //! Shift + drag    moves it up and down
-//! Ctrl + drag     snaps it to a quarter of a meter
+//! Ctrl + drag     snaps it to a quarter of a meter, on the axes that it moves along
 //! Esc, right      cancels the drag
 //! ```
 
@@ -12,7 +12,7 @@ use super::path_point::PathPoint;
 use super::point_drag::{PointControl, PointSet};
 use super::viewport_tools::tool::ToolOutcome;
 use dragonfly_picture::gizmo::GizmoView;
-use glam::{DVec2, DVec3};
+use glam::{BVec3, DVec2, DVec3};
 use std::sync::Arc;
 
 /// Distance within which a point is under the pointer, points of the screen.
@@ -83,15 +83,17 @@ impl PointSet for PathPoints {
         modifiers: Modifiers,
     ) -> Option<PathPoint> {
         let place = point.place;
-        let by = if modifiers.shift {
-            DVec3::Y * view.move_by(place, to - from)?.y
+        let level = BVec3::new(true, false, true);
+        let (by, moved) = if modifiers.shift {
+            (DVec3::Y * view.move_by(place, to - from)?.y, !level)
         } else if view.back.y.abs() < LEAST_SLOPE {
-            view.move_by(place, to - from)?
+            (view.move_by(place, to - from)?, BVec3::TRUE)
         } else {
-            view.on_plane(to, place, DVec3::Y) - view.on_plane(from, place, DVec3::Y)
+            (view.on_plane(to, place, DVec3::Y) - view.on_plane(from, place, DVec3::Y), level)
         };
         let put = place + by;
-        let put = if modifiers.ctrl { (put / SNAP).round() * SNAP } else { put };
+        // The other axes stay exactly as they are.
+        let put = if modifiers.ctrl { DVec3::select(moved, (put / SNAP).round() * SNAP, place) } else { put };
         put.is_finite().then(|| PathPoint { place: put, ..point.clone() })
     }
 

@@ -107,6 +107,7 @@ pub mod tool_drag;
 pub mod tool_state;
 mod transport;
 pub mod viewport;
+mod waveform;
 mod widgets;
 pub mod window_status;
 mod workspace;

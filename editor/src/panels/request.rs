@@ -132,8 +132,8 @@ pub enum Request {
     Scene(SceneRequest),
     /// Files were dropped onto the window.
     Dropped(Vec<PathBuf>),
-    /// Adds these models to the scene as roles, in one step.
-    AddRoles(Vec<PathBuf>),
+    /// Adds this model to the scene as a role.
+    AddRole(PathBuf),
     /// Adds this model to the scene as a prop.
     AddProp(PathBuf),
     /// Makes a scene of two roles with this model, next to its file, and opens it.

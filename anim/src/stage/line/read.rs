@@ -42,6 +42,8 @@ pub struct DrawnLine {
 pub struct DrawnLines {
     tree: ScriptTree,
     lines: Vec<DrawnLine>,
+    /// The positions of the lines that have an id.
+    ids: HashMap<Box<str>, usize>,
 }
 
 impl DrawnLines {
@@ -70,7 +72,7 @@ impl DrawnLines {
         let index = tree.lines().clone();
         let mut errors = ErrorList::new(&index);
         let mut ids: HashMap<Box<str>, usize> = HashMap::new();
-        let (mut lines, mut curves) = (Vec::new(), 0);
+        let (mut lines, mut curves) = (Vec::<DrawnLine>::new(), 0);
         for (element, row) in tree.elements().iter().enumerate().skip(1) {
             let line = drawn(element, row, rate);
             curves += line.points.len() / 3;
@@ -84,13 +86,14 @@ impl DrawnLines {
                 let message = format!("a line needs 3 n + 1 points, such as 4 or 7, not {count}");
                 errors.add(row.value_range("points"), message, "");
             }
-            if let Some(first) = line.id.clone().and_then(|id| ids.insert(id, row.range.start)) {
+            if let Some(first) = line.id.clone().and_then(|id| ids.insert(id, lines.len())) {
+                let first = tree.elements()[lines[first].element].range.start;
                 let message = format!("the id is used at {} already", errors.place(first));
                 errors.add(row.value_range("id"), message, "an id names one line");
             }
             lines.push(line);
         }
-        if errors.is_empty() { Ok(Self { tree, lines }) } else { Err(errors.sorted()) }
+        if errors.is_empty() { Ok(Self { tree, lines, ids }) } else { Err(errors.sorted()) }
     }
 
     /// Returns the text and its elements.
@@ -105,7 +108,7 @@ impl DrawnLines {
 
     /// Returns the line called `id`.
     pub fn called(&self, id: &str) -> Option<&DrawnLine> {
-        self.lines.iter().find(|line| line.id.as_deref() == Some(id))
+        self.lines.get(*self.ids.get(id)?)
     }
 }
 

@@ -22,7 +22,7 @@ mod spot;
 mod thing;
 
 pub use cues::{SoundCue, TitleCue};
-pub use footprints::Footprint;
+pub use footprints::{Footprint, PathWalk};
 pub use placement::Placement;
 pub use thing::PlannedThing;
 

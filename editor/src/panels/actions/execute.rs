@@ -77,6 +77,9 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Shields(shields) => framing::set_shields(workspace, shields),
         Request::Wheel(by) => return framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),
+        Request::Open(Source::File(file)) if workspace.read().scene().is_some() && is_sound(&file) => {
+            return dropped::dropped(workspace, vec![file]);
+        }
         Request::Open(Source::File(file)) if workspace.model.view().is_some() && is_sound(&file) => {
             workspace.sound.set(SoundSettings { file, ..SoundSettings::default() });
         }
@@ -115,8 +118,8 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Sets(action) => sets::perform(workspace, &action),
         Request::Scene(request) => return scene::perform(workspace, request),
         Request::Dropped(files) => return dropped::dropped(workspace, files),
-        Request::AddRoles(paths) => return scene::add_models(workspace, &paths, NewThing::Role),
-        Request::AddProp(path) => return scene::add_models(workspace, &[path], NewThing::Prop),
+        Request::AddRole(path) => return scene::add_model(workspace, &path, NewThing::Role),
+        Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),
         Request::NewScene(path) => return Some(Effect::NewScene(path)),
         Request::DemoScene(folder) => return Some(Effect::DemoScene(folder)),
     }

@@ -21,6 +21,7 @@ pub(super) mod input;
 pub(super) mod keys;
 pub(super) mod layers;
 mod left_scene;
+mod line_edit;
 pub(super) mod locks;
 pub(super) mod look;
 pub(super) mod playback;

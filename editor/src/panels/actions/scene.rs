@@ -1,17 +1,15 @@
 //! Scenes: selection, the newest text, things of the cast.
 
-use super::scene_text::{add_all, change_text};
-use super::{playback, scene_camera, scene_ground, scene_lines, scene_view};
+use super::scene_text::{add, change_text};
+use super::{playback, scene_camera, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::scene::{NewThing, SceneRequest};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::stage::line::points_text;
 use dragonfly_document::DocumentMessage;
 use dragonfly_document::bones::Choice;
-use glam::DVec3;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, Path};
 
 /// Commands for models and the ones with the same meaning, and the same keys, while a scene is open.
 const COUNTERPARTS: &[(Id, Id)] = &[
@@ -65,19 +63,21 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
     None
 }
 
-/// Adds model files to the cast in one step. Those that are not below the folder of the script are left out.
-pub(super) fn add_models(
+/// Adds a model file to the cast.
+pub(super) fn add_model(
     workspace: &mut Workspace,
-    paths: &[PathBuf],
-    mut thing: impl FnMut(String) -> NewThing,
+    path: &Path,
+    thing: impl FnOnce(String) -> NewThing,
 ) -> Option<Effect> {
+    let model = name_in_scene(workspace, path)?;
+    add(workspace, &thing(model))
+}
+
+/// Returns the name of a file as the script that is open writes it; `None`, with a message, where the file is not below its folder.
+pub(super) fn name_in_scene(workspace: &mut Workspace, path: &Path) -> Option<String> {
     let folder = workspace.read().model_folder()?;
-    let mut things = Vec::new();
-    for path in paths {
-        if let Some(model) = relative(&folder, path) {
-            things.push(thing(model));
-            continue;
-        }
+    let name = relative(&folder, path);
+    if name.is_none() {
         let text = format!(
             "{} is not in the folder of the scene: copy it to {} or below first",
             path.file_name().unwrap_or_default().display(),
@@ -85,19 +85,7 @@ pub(super) fn add_models(
         );
         workspace.say(MessageSeverity::Warning, text);
     }
-    add_all(workspace, &things)
-}
-
-/// Adds model files that were dropped to the cast as roles in one step: the first one under the pointer, each further one a meter to the right of the one before.
-pub(super) fn drop_roles(workspace: &mut Workspace, paths: &[PathBuf]) -> Option<Effect> {
-    // To a centimeter, which is easy to read.
-    let first = scene_ground::pointed(workspace).map(|place| (place * 100.0).round() / 100.0 + 0.0);
-    let mut places =
-        first.into_iter().flat_map(|first| (0..).map(move |beside| first + f64::from(beside) * DVec3::X));
-    add_models(workspace, paths, |model| match places.next().and_then(|place| points_text(&[place])) {
-        Some(place) => NewThing::RoleAt(model, place),
-        None => NewThing::Role(model),
-    })
+    name
 }
 
 /// Returns a path relative to a folder that contains it, with `/`.

@@ -11,6 +11,7 @@ use dragonfly_anim::stage::gesture::{
     Followers, GestureRefusal, SequenceOrder, cut_to, delete_clip, duplicate_clip, move_clip, trim_end,
     trim_start,
 };
+use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::script::ScriptTree;
 use dragonfly_anim::stage::splice::{
     AttachedComments, TextSplices, delete as delete_element, duplicate as duplicate_element, is_used,
@@ -159,14 +160,16 @@ pub(in crate::panels) fn cut_to_selected(workspace: &mut Workspace) -> Option<Ef
 
 /// Moves the playhead to the start of the next shot, or of the one before the playhead.
 pub(in crate::panels) fn go_to_shot(workspace: &mut Workspace, forward: bool) {
-    let (lanes, now) = (std::sync::Arc::clone(workspace.scene.lanes()), workspace.read().scene_time());
-    let shots = shots_of(&lanes);
+    let panels = workspace.read();
+    let (shots, now) = (shots_of(panels.scene_editing.lanes()), panels.scene_time());
+    // The playhead at the start of a shot between two numbers of it is a little after that start.
+    let is_before = |shot: &&SceneBar| shot.begin < now && panels.playhead_at(shot.begin) < panels.time();
     let found = match forward {
         true => shots.iter().find(|shot| shot.begin > now),
-        false => shots.iter().rev().find(|shot| shot.begin < now),
+        false => shots.iter().rev().find(is_before),
     };
-    match found {
-        Some(shot) => playback::seek(workspace, shot.begin.seconds() as f32),
+    match found.map(|shot| panels.playhead_at(shot.begin)) {
+        Some(time) => playback::seek(workspace, time),
         None => workspace.say(MessageSeverity::Info, "There is no shot on that side"),
     }
 }

@@ -16,6 +16,7 @@ use dragonfly_document::SceneView;
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::gizmo::{PosedSkeleton, Tool};
 use glam::{Mat4, Quat, Vec3};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Distance between the place of a thing and the one that its own motions give it, above which something else carries it, meters.
@@ -132,7 +133,7 @@ fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefu
     let mut parts = Vec::new();
     for (drag, before) in gizmo.drag().bones.iter().zip(gizmo.before()) {
         let (thing, mut now) = (drag.bone as usize, drag.to_parent);
-        let height = heights.as_ref().and_then(|heights| heights.get(thing).copied().flatten());
+        let height = heights.as_ref().and_then(|heights| heights.get(&thing).copied());
         now.translation.y = height.unwrap_or(now.translation.y);
         moment.moved(thing, gizmo.tool, [now, before.to_parent], &mut parts)?;
     }
@@ -145,13 +146,19 @@ fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefu
 }
 
 /// Returns the heights at which things stay while they are moved on the ground; `None` while they may leave it.
-fn kept_heights(workspace: &mut Workspace, scene: &SceneView, time: StageTime) -> Option<Arc<[Option<f32>]>> {
-    let is_move = workspace.tools.controls().gizmo().gizmo.tool == Tool::Move;
-    if !is_move || !workspace.settings.tools.ground {
+fn kept_heights(
+    workspace: &mut Workspace,
+    scene: &SceneView,
+    time: StageTime,
+) -> Option<Arc<BTreeMap<usize, f32>>> {
+    let gizmo = &workspace.tools.controls().gizmo().gizmo;
+    if gizmo.tool != Tool::Move || !workspace.settings.tools.ground {
         return None;
     }
     if workspace.stage.heights().is_none() {
-        workspace.stage.set_heights(heights_on_ground(scene, time.seconds()));
+        let things = gizmo.drag().bones.iter().map(|drag| drag.bone as usize);
+        let heights = heights_on_ground(scene, things, time.seconds());
+        workspace.stage.set_heights(Arc::new(heights));
     }
     workspace.stage.heights().cloned()
 }

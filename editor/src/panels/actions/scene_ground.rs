@@ -4,11 +4,13 @@ use super::scene_gizmo::{BaseMoment, joined};
 use super::scene_text::gesture;
 use crate::panels::request::Effect;
 use crate::panels::workspace::Workspace;
+use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text};
 use dragonfly_document::SceneView;
 use dragonfly_picture::PosedScene;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::{DVec3, Vec2};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Least sine of the angle at which the ground is seen: nearer to the horizon, the pointer reaches too far.
@@ -26,15 +28,16 @@ pub(in crate::panels) fn toggle(workspace: &mut Workspace) {
 pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effect> {
     let time = workspace.read().scene_time();
     let scene = workspace.model.view()?.scene.clone()?;
-    let heights = heights_on_ground(&scene, time.seconds());
     let selected = workspace.scene.things().iter().filter(|id| !workspace.scene.is_locked(id)).cloned();
     let selected: Vec<Box<str>> = selected.collect();
+    let things = selected.iter().filter_map(|id| scene.plan.as_ref()?.thing_called(id));
+    let heights = heights_on_ground(&scene, things, time.seconds());
     gesture(workspace, "Drop to the ground", |base| {
         let mut state = base.plan.new_scene();
         base.plan.scene_at(time, &mut state);
         let things = selected.iter().filter_map(|id| base.plan.thing_called(id));
         let standing: Vec<(usize, f32)> =
-            things.filter_map(|thing| Some((thing, heights.get(thing).copied().flatten()?))).collect();
+            things.filter_map(|thing| Some((thing, *heights.get(&thing)?))).collect();
         if standing.is_empty() {
             return Err(GestureRefusal(
                 "Nothing that is selected can stand: choose roles, props or marks".to_owned(),
@@ -49,22 +52,48 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
     })
 }
 
-/// Returns the height at which each thing is on the ground, meters: a prop with its lowest point at this time, a role or a mark with its place. `None` for
-/// things in the air, and for paths.
-pub(super) fn heights_on_ground(scene: &SceneView, seconds: f64) -> Arc<[Option<f32>]> {
-    let Some(mut posed) = PosedScene::new(scene, &[], None) else { return Arc::default() };
-    posed.pose(seconds);
+/// Returns the heights at which these things of a plan are on the ground, meters, by their positions in it: a prop with its lowest point at this time, a role
+/// or a mark with its place. None for things in the air, and for paths.
+pub(super) fn heights_on_ground(
+    scene: &SceneView,
+    things: impl IntoIterator<Item = usize>,
+    seconds: f64,
+) -> BTreeMap<usize, f32> {
+    let Some(plan) = &scene.plan else { return BTreeMap::new() };
+    let known = things.into_iter().filter_map(|thing| Some((thing, plan.things().get(thing)?.kind)));
+    let known: BTreeMap<usize, &str> = known.collect();
+    let props: BTreeSet<usize> =
+        known.iter().filter(|(_, kind)| **kind == "prop").map(|(thing, _)| *thing).collect();
+    let posed = posed_alone(scene, plan, &props, seconds);
+    let height_of_prop = |thing: usize| {
+        let posed = posed.as_ref()?;
+        let (around, place) = (posed.box_of(thing), posed.state().things.get(thing)?.transform.translation.y);
+        Some(if around.is_empty() { 0.0 } else { place - around.min.y })
+    };
     let height = |(thing, kind): (usize, &str)| match kind {
-        "role" | "mark" => Some(0.0),
-        "prop" => {
-            let around = posed.box_of(thing);
-            let place = posed.state().things.get(thing)?.transform.translation.y;
-            Some(if around.is_empty() { 0.0 } else { place - around.min.y })
-        }
+        "role" | "mark" => Some((thing, 0.0)),
+        "prop" => Some((thing, height_of_prop(thing)?)),
         // Cameras, lights and effects are in the air; paths have no place.
         _ => None,
     };
-    posed.plan().things().iter().map(|thing| thing.kind).enumerate().map(height).collect()
+    known.into_iter().filter_map(height).collect()
+}
+
+/// Poses these things of a scene and leaves all others out; `None` without one of them, so that nothing is computed then.
+fn posed_alone(
+    scene: &SceneView,
+    plan: &StagePlan,
+    things: &BTreeSet<usize>,
+    seconds: f64,
+) -> Option<PosedScene> {
+    if things.is_empty() {
+        return None;
+    }
+    let others = plan.things().iter().enumerate().filter(|(thing, _)| !things.contains(thing));
+    let hidden: Vec<Arc<str>> = others.map(|(_, thing)| Arc::from(&*thing.id)).collect();
+    let mut posed = PosedScene::new(scene, &hidden, None)?;
+    posed.pose(seconds);
+    Some(posed)
 }
 
 /// Returns the place on the ground under the pointer, or under the middle of the viewport while the pointer is elsewhere; `None` where there is no ground near.

@@ -1,18 +1,18 @@
 //! Lines and paths of a scene: drawn, erased, followed.
 
+use super::line_edit::{NO_PROJECT, lines_edit, lines_edit_of};
 use super::scene_text::{self, gesture};
 use super::{pose_line, tools};
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::panels::request::Effect;
-use crate::panels::scene::{LineEraser, LineRequest, NO_LINES, NewThing, line_name, line_named};
+use crate::panels::scene::{LineEraser, LineRequest, NewThing, line_name, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, points_text};
-use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::{PlannedThing, StageTake};
-use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
-use dragonfly_document::text::sentence;
+use dragonfly_document::edit::{Edit, EditScript};
 use dragonfly_document::{Change, SceneView, paths_of_renamed_line};
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
@@ -29,7 +29,7 @@ pub(in crate::panels) fn choose(workspace: &mut Workspace, use_of: LineUse) {
     }
     let has_project = workspace.read().scene().is_some_and(|scene| scene.project.is_some());
     if use_of == LineUse::Note && !has_project {
-        let text = "Lines belong to a project: choose \"New project from this scene\" in the menu File. A path can be drawn without one";
+        let text = format!("{NO_PROJECT}. A path can be drawn without one");
         return workspace.say(MessageSeverity::Info, text);
     }
     let target = workspace.camera.camera().target.as_dvec3();
@@ -210,85 +210,6 @@ fn edit_lines(
             None
         }
     }
-}
-
-/// Returns the edit of the file of lines.
-///
-/// # Errors
-///
-/// The reason why there is none.
-pub(super) fn lines_edit(
-    scene: &SceneView,
-    label: &str,
-    change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
-) -> Result<EditScript, String> {
-    lines_edit_of(scene, label, None, change)
-}
-
-/// Does the same as [`lines_edit`] where another edit gives the paths along the line `renamed` its new name.
-fn lines_edit_of(
-    scene: &SceneView,
-    label: &str,
-    renamed: Option<&str>,
-    change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
-) -> Result<EditScript, String> {
-    let project = scene
-        .project
-        .as_ref()
-        .ok_or("Lines belong to a project: choose \"New project from this scene\" in the menu File")?;
-    let refused = "The line cannot be written";
-    if let Some(name) = project.lines() {
-        let file = scene.texts.called(name).ok_or("The file of lines is missing")?;
-        let lines = DrawnLines::read_of(Arc::clone(&file.text), Some(project));
-        let lines = lines.map_err(|_| "The file of lines has errors")?;
-        let splices = change(&lines).ok_or(refused)?;
-        check(scene, &lines, renamed, &splices.apply(&file.text))?;
-        let edit = EditScript::of(&file.text, &splices, label);
-        return Ok(EditScript { text: Some(TextRef::Name(name.to_owned())), ..edit });
-    }
-    let main = scene.texts.list().first().ok_or("The project has no text")?;
-    if **project.tree().text() != *main.text {
-        return Err("The project has errors: correct it first".to_owned());
-    }
-    let name = (1_u32..)
-        .map(
-            |number| {
-                if number == 1 { "drawn.lines.xml".to_owned() } else { format!("drawn-{number}.lines.xml") }
-            },
-        )
-        .find(|name| scene.texts.called(name).is_none())
-        .ok_or(refused)?;
-    let empty = DrawnLines::read(NO_LINES).map_err(|_| refused)?;
-    let text = change(&empty).ok_or(refused)?.apply(NO_LINES);
-    check(scene, &empty, renamed, &text)?;
-    let place = match project.tree().elements().iter().rposition(|element| element.parent == Some(0)) {
-        Some(last) => ElementPlace::After(last),
-        None => ElementPlace::First(0),
-    };
-    let element = NewElement::new("lines").with("src", name.as_str());
-    let splices = insert(project.tree(), place, &element).ok_or(refused)?;
-    let of_project = EditScript::of(&main.text, &splices, label);
-    Ok(EditScript {
-        text: Some(TextRef::Name(name)),
-        create: true,
-        splices: vec![ScriptSplice { at: 0, old: String::new(), new: text }],
-        label: Some(label.to_owned()),
-        also: vec![EditScript { text: Some(TextRef::Name(main.name.to_string())), ..of_project }],
-    })
-}
-
-/// Refuses a text of lines that cannot be read, and one without a line that a path of the script needs, apart from the one that is `renamed`.
-fn check(scene: &SceneView, before: &DrawnLines, renamed: Option<&str>, text: &str) -> Result<(), String> {
-    let after = DrawnLines::read_of(text, scene.project.as_deref())
-        .map_err(|errors| errors.first().map_or_else(String::new, |error| sentence(&error.text())))?;
-    let things = scene.script.iter().flat_map(|script| script.things());
-    let needed = things.filter_map(|thing| Some((thing.value("id")?, thing.value("line")?)));
-    for (path, line) in needed {
-        if renamed != Some(line) && before.called(line).is_some() && after.called(line).is_none() {
-            return Err(format!("The path {path} follows the line {line}: delete the path first"));
-        }
-    }
-    Ok(())
 }
 
 /// Adds a path along the selected line to the cast, and selects it.

@@ -1,11 +1,11 @@
 //! A drag of a point of a path or a line: a new text of the script, or of the file of lines.
 
+use super::line_edit::reshaped_edit;
 use super::scene_gizmo::gesture_base;
-use super::scene_lines::lines_edit;
 use super::scene_text::change_text;
 use crate::control::path_point::{PathPoint, PathPointOwner};
 use crate::panels::request::Effect;
-use crate::panels::scene::{ScriptChange, line_named};
+use crate::panels::scene::ScriptChange;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, move_path_point};
@@ -17,8 +17,11 @@ use dragonfly_document::history::Gesture;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Sends the text in which a point is where the pointer put it.
+/// Sends the text in which a point is where the pointer put it, unless the text has that place already.
 pub(super) fn send(workspace: &mut Workspace, point: &PathPoint, effects: &mut Vec<Effect>) {
+    if !workspace.stage.is_new_place(point.place) {
+        return;
+    }
     let gesture = workspace.tools.drag().gesture().unwrap_or_else(|| workspace.dragging.new_gesture());
     let effect = match &point.owner {
         PathPointOwner::Path(path) => {
@@ -61,11 +64,7 @@ fn line_edit(workspace: &mut Workspace, line: &str, point: &PathPoint) -> Result
             scene
         }
     };
-    let edit = lines_edit(&scene, "Move point", |lines| {
-        let at = line_named(lines, line)?;
-        lines.reshaped(at, &moved(&lines.list()[at], point)?)
-    });
-    edit.map_err(GestureRefusal)
+    reshaped_edit(&scene, "Move point", line, |line| moved(line, point)).map_err(GestureRefusal)
 }
 
 fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, GestureRefusal> {

@@ -1,7 +1,7 @@
 //! New texts of a scene's script.
 
 use crate::panels::request::Effect;
-use crate::panels::scene::{NewThing, SceneBase, ScriptChange, new_thing_text};
+use crate::panels::scene::{NewThing, SceneBase, ScriptChange, with_new_sound, with_new_thing};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
@@ -44,23 +44,32 @@ pub(super) fn gesture(
 
 /// Adds a thing to the cast and selects it.
 pub(in crate::panels) fn add(workspace: &mut Workspace, thing: &NewThing) -> Option<Effect> {
-    add_all(workspace, std::slice::from_ref(thing))
+    add_all(workspace, std::slice::from_ref(thing), &[])
 }
 
-/// Adds things of one kind to the cast in one step, and selects them.
-pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing]) -> Option<Effect> {
-    let label = things.first()?.label();
+/// Adds things of one kind to the cast and sounds at the playhead in one step, and selects the things.
+pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing], sounds: &[String]) -> Option<Effect> {
+    let label = match (things, sounds) {
+        ([], []) => return None,
+        ([], _) => "Add sound",
+        ([thing, ..], []) => thing.label(),
+        _ => "Add files",
+    };
+    let at = workspace.read().scene_time();
     let mut added = Vec::new();
     let effect = gesture(workspace, label, |base| {
-        let mut text = Arc::clone(base.text());
+        let mut script = Arc::clone(&base.script);
         for thing in things {
-            let (next, id) = new_thing_text(&base.script, &text, thing)?;
+            let (next, id) = with_new_thing(&script, thing)?;
             added.push(id);
-            text = next.into();
+            script = Arc::new(next);
         }
-        Ok(text.to_string())
+        for sound in sounds {
+            script = Arc::new(with_new_sound(&script, sound, at)?);
+        }
+        Ok(script.tree().text().to_string())
     });
-    if effect.is_some() {
+    if effect.is_some() && !added.is_empty() {
         workspace.scene.await_things(added);
     }
     effect

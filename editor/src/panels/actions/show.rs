@@ -43,7 +43,7 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     tools::sync_gizmo(workspace);
     tools::update_path(workspace);
     let scene = workspace.model.view().and_then(|view| view.scene.clone());
-    workspace.scene.update_lines(scene.as_deref());
+    workspace.scene.update_lines(scene.as_deref(), workspace.dragging.is_open());
     tools::show_points(workspace);
 }
 

@@ -33,7 +33,18 @@ impl<'a> PanelContext<'a> {
 
     /// Returns the exact time of the playhead in the scene.
     pub fn scene_time(&self) -> StageTime {
-        let seconds = f64::from(self.time());
+        self.scene_time_at(self.time())
+    }
+
+    /// Returns the least time of the playhead, seconds, at which a time of the scene has come. Rounded to the nearest number, the
+    /// playhead could be before it.
+    pub fn playhead_at(&self, time: StageTime) -> f32 {
+        let nearest = time.seconds() as f32;
+        if self.scene_time_at(nearest) < time { nearest.next_up() } else { nearest }
+    }
+
+    fn scene_time_at(&self, playhead: f32) -> StageTime {
+        let seconds = f64::from(playhead);
         match self.scene_rate() {
             Some(rate) => rate.time_of(seconds),
             None => StageTime::from_seconds(seconds),

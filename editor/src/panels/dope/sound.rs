@@ -4,35 +4,20 @@ use super::head::to_frame;
 use super::lane_drag::MarkDrag;
 use super::sheet::Sheet;
 use crate::panels::commands::Id;
-use crate::panels::keys::TimeScale;
 use crate::panels::menu;
 use crate::panels::request::Request;
 use crate::panels::sound::{SoundSettings, SoundTrack};
+use crate::panels::waveform::{Waveform, WaveformLook};
 use crate::panels::widgets;
-use dragonfly_document::SoundPeaks;
 use egui::accesskit::Role;
-use egui::{
-    Color32, CornerRadius, CursorIcon, Mesh, Rect, Sense, Shape, TextStyle, Ui, WidgetInfo, pos2, vec2,
-};
+use egui::{CornerRadius, CursorIcon, Rect, Sense, TextStyle, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
-/// The lane, with the triangles of the waveform, rebuilt only when something that they depend on changed.
+/// The lane.
 #[derive(Debug, Default)]
 pub(super) struct SoundLane {
-    made_of: Option<WaveformKey>,
-    mesh: Arc<Mesh>,
+    waveform: Waveform,
     drag: MarkDrag,
-}
-
-/// Everything that the triangles depend on.
-#[derive(Debug)]
-struct WaveformKey {
-    peaks: Arc<SoundPeaks>,
-    start: f32,
-    scale: TimeScale,
-    lane: Rect,
-    pixels_per_point: f32,
-    color: Color32,
 }
 
 impl SoundLane {
@@ -63,15 +48,16 @@ impl SoundLane {
         }
         let start = self.drag.time_of(0, own);
         if let Some(peaks) = sound.peaks() {
-            let key = WaveformKey {
+            let look = WaveformLook {
                 peaks: Arc::clone(peaks),
-                start,
+                start: f64::from(start),
+                times: 1.0,
                 scale: *scale,
-                lane,
+                rect: lane.shrink2(vec2(0.0, 1.0)),
                 pixels_per_point: ui.ctx().pixels_per_point(),
                 color: if response.hovered() || response.dragged() { theme.text } else { theme.weak },
             };
-            self.waveform(ui, key);
+            self.waveform.show(ui.painter(), look);
         }
         let text = caption(sound);
         let place = Rect::from_min_size(lane.min + vec2(4.0, 0.0), vec2((lane.width() - 8.0).max(0.0), 12.0));
@@ -97,15 +83,6 @@ impl SoundLane {
             menu::item(ui, context, Id::RemoveSound, false, requests);
         });
     }
-
-    fn waveform(&mut self, ui: &Ui, key: WaveformKey) {
-        if !self.made_of.as_ref().is_some_and(|old| old.same(&key)) {
-            self.mesh = Arc::new(key.mesh());
-            self.made_of = Some(key);
-        }
-        let painter = ui.painter().with_clip_rect(ui.clip_rect());
-        painter.add(Shape::Mesh(Arc::clone(&self.mesh)));
-    }
 }
 
 /// Returns the text in the lane: the name of the file, or what is wrong with it.
@@ -113,31 +90,5 @@ fn caption(sound: &SoundTrack) -> String {
     match sound.problem() {
         Some(problem) => problem.to_owned(),
         None => sound.settings().file.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-    }
-}
-
-impl WaveformKey {
-    /// Compares without reading the peaks.
-    fn same(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.peaks, &other.peaks)
-            && (self.start, self.scale, self.lane) == (other.start, other.scale, other.lane)
-            && (self.pixels_per_point, self.color) == (other.pixels_per_point, other.color)
-    }
-
-    /// Returns a bar from the least to the greatest sample in every column of pixels.
-    fn mesh(&self) -> Mesh {
-        let mut mesh = Mesh::default();
-        let (middle, half) = (self.lane.center().y, self.lane.height() / 2.0 - 1.0);
-        let step = 1.0 / self.pixels_per_point.max(0.1);
-        let columns = (self.lane.width() / step).max(0.0) as usize;
-        for column in 0..columns.min(20_000) {
-            let x = self.lane.left() + column as f32 * step;
-            let [from, to] = [x, x + step].map(|x| f64::from(self.scale.time_at(x)) - f64::from(self.start));
-            let Some([low, high]) = self.peaks.between(from, to) else { continue };
-            let thin = (0.5 - half * (high - low) / 2.0).max(0.0);
-            let (top, bottom) = (middle - half * high - thin, middle - half * low + thin);
-            mesh.add_colored_rect(Rect::from_min_max(pos2(x, top), pos2(x + step, bottom)), self.color);
-        }
-        mesh
     }
 }

@@ -156,10 +156,10 @@ impl SceneEditing {
         &mut self.lines
     }
 
-    /// Adapts what is drawn of lines and paths to the scene and the selection.
-    pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>) {
+    /// Adapts what is drawn of lines and paths to the scene and the selection. `is_dragging` says whether more changes are likely to come.
+    pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>, is_dragging: bool) {
         let (selected, hidden, locked) = (self.things.list(), &self.hidden, &self.locked);
-        self.lines.update(scene, MarkedThings { selected, hidden, locked });
+        self.lines.update(scene, MarkedThings { selected, hidden, locked }, is_dragging);
     }
 
     /// Returns whether a gesture is a word that someone types.

@@ -1,7 +1,7 @@
 //! Drawn lines as they are edited: which one is selected, which are hidden, and how lines and paths are drawn.
 
 use super::line_eraser::LineEraser;
-use super::line_look::{line_looks, path_looks};
+use super::line_look::{PathDrawing, line_looks, path_drawings};
 use super::path_handles::path_handles;
 use crate::control::path_point::PathPoint;
 use dragonfly_anim::stage::StagePlan;
@@ -22,7 +22,7 @@ pub struct LineEditing {
     /// Points that can be dragged.
     points: Arc<[PathPoint]>,
     /// The paths among the looks, and what they were made from.
-    paths: (Option<PathsBase>, Vec<LineLook>),
+    paths: (Option<PathsBase>, Vec<PathDrawing>),
     /// The lines among the looks, and what they were made from.
     lines: (Option<LinesBase>, Vec<LineLook>),
     /// The movement of the eraser in progress.
@@ -64,11 +64,16 @@ impl MarkedThings<'_> {
 struct PathsBase {
     plan: Option<Arc<StagePlan>>,
     things: ThingMarks,
+    /// Whether each path is drawn from this plan, none from an earlier one.
+    is_exact: bool,
 }
 
 impl PathsBase {
     /// Returns whether nothing has changed since. Allocates nothing.
-    fn is_same(&self, scene: Option<&SceneView>, things: MarkedThings<'_>) -> bool {
+    fn is_same(&self, scene: Option<&SceneView>, things: MarkedThings<'_>, is_dragging: bool) -> bool {
+        if !self.is_exact && !is_dragging {
+            return false;
+        }
         let of_plan = |plan: Option<&Arc<StagePlan>>| plan.map(Arc::as_ptr);
         of_plan(self.plan.as_ref()) == of_plan(scene.and_then(|scene| scene.plan.as_ref()))
             && things.is_same(&self.things)
@@ -140,9 +145,9 @@ impl LineEditing {
     }
 
     /// Adapts what is drawn to the scene and to the things that are selected, hidden and locked. Does nothing if nothing changed; a newer plan
-    /// leaves the lines of a project as they are.
-    pub(super) fn update(&mut self, scene: Option<&SceneView>, things: MarkedThings<'_>) {
-        let same_paths = self.paths.0.as_ref().is_some_and(|base| base.is_same(scene, things));
+    /// leaves the lines of a project as they are. While something is dragged or typed, so do paths that are most likely the same; after it, all are exact.
+    pub(super) fn update(&mut self, scene: Option<&SceneView>, things: MarkedThings<'_>, is_dragging: bool) {
+        let same_paths = self.paths.0.as_ref().is_some_and(|base| base.is_same(scene, things, is_dragging));
         let same_lines = self.lines.0.as_ref().is_some_and(|base| base.is_same(scene, self));
         if same_paths && same_lines {
             return;
@@ -150,8 +155,11 @@ impl LineEditing {
         let script = scene.and_then(|scene| scene.script.as_deref());
         if !same_paths {
             let plan = scene.and_then(|scene| scene.plan.clone());
-            let looks = script.zip(plan.as_deref()).map(|(script, plan)| path_looks(script, plan, things));
-            self.paths = (Some(PathsBase { plan, things: things.to_marks() }), looks.unwrap_or_default());
+            let before = if is_dragging { std::mem::take(&mut self.paths.1) } else { Vec::new() };
+            let of_scene = script.zip(plan.as_deref());
+            let drawings = of_scene.map(|(script, plan)| path_drawings(script, plan, things, before));
+            let base = PathsBase { plan, things: things.to_marks(), is_exact: !is_dragging };
+            self.paths = (Some(base), drawings.unwrap_or_default());
         }
         if !same_lines {
             let base = LinesBase {
@@ -167,6 +175,7 @@ impl LineEditing {
         let paths = things.selected.iter().map(|id| &**id).filter(editable);
         let line = self.selected().filter(|line| !self.is_hidden(line));
         self.points = path_handles(script, scene.and_then(|scene| scene.lines.as_deref()), paths, line);
-        self.looks = self.paths.1.iter().chain(&self.lines.1).cloned().collect();
+        let paths = self.paths.1.iter().flat_map(PathDrawing::looks);
+        self.looks = paths.chain(&self.lines.1).cloned().collect();
     }
 }

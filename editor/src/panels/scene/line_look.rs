@@ -4,7 +4,7 @@ use super::line_editing::{MarkedThings, line_name};
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::time::StageTime;
-use dragonfly_anim::stage::{StagePath, StagePlan};
+use dragonfly_anim::stage::{PathWalk, StagePath, StagePlan};
 use dragonfly_picture::LineLook;
 use dragonfly_picture::gizmo::LineInk;
 use glam::Vec3;
@@ -47,44 +47,91 @@ pub(super) fn line_looks(
     seen.map(|(name, line)| LineLook::of_line(line, wider(&name))).collect()
 }
 
+/// A path as it is drawn.
+#[derive(Clone, Debug)]
+pub(super) struct PathDrawing {
+    id: Box<str>,
+    path: Arc<StagePath>,
+    /// Begin and end of each action that follows it.
+    times: Vec<[StageTime; 2]>,
+    is_selected: bool,
+    looks: Vec<LineLook>,
+}
+
+impl PathDrawing {
+    /// Returns the path as it is drawn, and its parts in red.
+    pub(super) fn looks(&self) -> &[LineLook] {
+        &self.looks
+    }
+
+    fn is_of(&self, path: &Arc<StagePath>, followers: &[Follower], is_selected: bool) -> bool {
+        self.is_selected == is_selected
+            && self.path == *path
+            && self.times.iter().eq(followers.iter().map(|follower| &follower.times))
+    }
+}
+
 /// Returns the paths of a scene as they are drawn, without the hidden ones: arrows each half a meter, a tick at each second of those that follow
-/// it, a dot where a foot of theirs lands, and in red the parts that bend too much for their stride.
-pub(super) fn path_looks(script: &StageScript, plan: &StagePlan, things: MarkedThings<'_>) -> Vec<LineLook> {
+/// it, a dot where a foot of theirs lands, and in red the parts that bend too much for their stride. A path of `before` stays as it was drawn there if
+/// its points are the same and those that follow it do it at the same times: nearly always it looks the same.
+pub(super) fn path_drawings(
+    script: &StageScript,
+    plan: &StagePlan,
+    things: MarkedThings<'_>,
+    before: Vec<PathDrawing>,
+) -> Vec<PathDrawing> {
     let selected: HashSet<&str> = things.selected.iter().map(|id| &**id).collect();
+    let mut before: HashMap<Box<str>, PathDrawing> =
+        before.into_iter().map(|drawing| (drawing.id.clone(), drawing)).collect();
     let seen = || plan.things().iter().filter(|thing| !things.hidden.contains(&thing.id));
-    let paths = || seen().filter_map(|thing| Some((thing, thing.path.as_ref()?)));
+    let paths = || seen().filter_map(|thing| Some((&*thing.id, thing.path.as_ref()?)));
     let most = (MOST_POINTS / paths().count().max(1)).clamp(2, MOST);
     let all_followers = Follower::all(script, plan);
-    let mut looks = Vec::new();
-    for (thing, path) in paths() {
-        let is_selected = selected.contains(&*thing.id);
-        let followers = all_followers.get(&*thing.id).map_or(&[][..], Vec::as_slice);
-        let whole = LineLook {
-            points: along(path, STEP, most).iter().map(|[at, _]| *at).collect(),
-            ink: LineInk::new(if is_selected { SELECTED } else { PATH }, WIDTH),
-            opacity: if is_selected { 1.0 } else { 0.8 },
-            shown: [None; 2],
-            of: None,
-            arrows: along(path, ARROWS, most).into_iter().skip(1).collect(),
-            ticks: followers.iter().flat_map(|follower| follower.ticks(plan, most)).take(most).collect(),
-            dots: followers.iter().flat_map(|follower| follower.feet(plan)).take(most).collect(),
-        };
-        let strides = followers.iter().filter_map(|own| plan.stride_on_path(own.thing, own.action));
-        let least = LEAST_RADIUS * strides.fold(0.0, f64::max);
-        let red = |points: Vec<Vec3>| LineLook {
-            points: points.into(),
-            ink: LineInk::new(TIGHT, WIDTH + 1.5),
-            opacity: 1.0,
-            arrows: Arc::default(),
-            ticks: Arc::default(),
-            dots: Arc::default(),
-            ..whole.clone()
-        };
-        let tight: Vec<LineLook> = tight_parts(path, least, most).into_iter().map(red).collect();
-        looks.push(whole);
-        looks.extend(tight);
-    }
-    looks
+    let drawing = |(id, path): (&str, &Arc<StagePath>)| {
+        let is_selected = selected.contains(id);
+        let followers = all_followers.get(id).map_or(&[][..], Vec::as_slice);
+        let old = before.remove(id).filter(|old| old.is_of(path, followers, is_selected));
+        old.unwrap_or_else(|| PathDrawing {
+            id: id.into(),
+            path: Arc::clone(path),
+            times: followers.iter().map(|follower| follower.times).collect(),
+            is_selected,
+            looks: looks_of(plan, path, followers, is_selected, most),
+        })
+    };
+    paths().map(drawing).collect()
+}
+
+fn looks_of(
+    plan: &StagePlan,
+    path: &StagePath,
+    followers: &[Follower],
+    is_selected: bool,
+    most: usize,
+) -> Vec<LineLook> {
+    let whole = LineLook {
+        points: along(path, STEP, most).iter().map(|[at, _]| *at).collect(),
+        ink: LineInk::new(if is_selected { SELECTED } else { PATH }, WIDTH),
+        opacity: if is_selected { 1.0 } else { 0.8 },
+        shown: [None; 2],
+        of: None,
+        arrows: along(path, ARROWS, most).into_iter().skip(1).collect(),
+        ticks: followers.iter().flat_map(|follower| follower.ticks(plan, most)).take(most).collect(),
+        dots: followers.iter().flat_map(|follower| follower.feet(plan)).take(most).collect(),
+    };
+    let strides = followers.iter().filter_map(|own| plan.stride_of(own.walk?));
+    let least = LEAST_RADIUS * strides.fold(0.0, f64::max);
+    let red = |points: Vec<Vec3>| LineLook {
+        points: points.into(),
+        ink: LineInk::new(TIGHT, WIDTH + 1.5),
+        opacity: 1.0,
+        arrows: Arc::default(),
+        ticks: Arc::default(),
+        dots: Arc::default(),
+        ..whole.clone()
+    };
+    let tight: Vec<LineLook> = tight_parts(path, least, most).into_iter().map(red).collect();
+    std::iter::once(whole).chain(tight).collect()
 }
 
 /// Returns the parts of a path whose radius is below `least` meters, measured over half of that.
@@ -121,7 +168,8 @@ fn along(path: &StagePath, step: f64, most: usize) -> Vec<[Vec3; 2]> {
 /// An action that follows a path.
 struct Follower {
     thing: usize,
-    action: usize,
+    /// Its place in the plan, if it decides over where the thing is.
+    walk: Option<PathWalk>,
     /// Its begin and its end.
     times: [StageTime; 2],
 }
@@ -129,6 +177,7 @@ struct Follower {
 impl Follower {
     /// Returns the actions that follow each path, by the id of the path.
     fn all<'a>(script: &'a StageScript, plan: &StagePlan) -> HashMap<&'a str, Vec<Self>> {
+        let walks: HashMap<usize, PathWalk> = plan.path_walks().map(|walk| (walk.action, walk)).collect();
         let mut found: HashMap<&str, Vec<Self>> = HashMap::new();
         for (action, times) in plan.schedule().times().iter().enumerate() {
             let element = script.element(action);
@@ -137,8 +186,8 @@ impl Follower {
             }
             let Some(path) = element.value("path") else { continue };
             if let Some(thing) = element.value("who").and_then(|who| plan.thing_called(who)) {
-                let times = [times.begin, times.end];
-                found.entry(path).or_default().push(Self { thing, action, times });
+                let (walk, times) = (walks.get(&action).copied(), [times.begin, times.end]);
+                found.entry(path).or_default().push(Self { thing, walk, times });
             }
         }
         found
@@ -158,6 +207,7 @@ impl Follower {
 
     /// Returns where its feet land.
     fn feet(&self, plan: &StagePlan) -> impl Iterator<Item = Vec3> {
-        plan.footprints(self.thing, self.action).into_iter().map(|print| print.position.as_vec3())
+        let prints = self.walk.map_or_else(Vec::new, |walk| plan.footprints_of(walk));
+        prints.into_iter().map(|print| print.position.as_vec3())
     }
 }

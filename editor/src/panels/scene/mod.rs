@@ -34,7 +34,7 @@ pub use editing::SceneEditing;
 pub use left_scene::LeftScene;
 pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;
-pub use new_thing::{NewThing, new_thing_text};
+pub use new_thing::{NewThing, with_new_sound, with_new_thing};
 pub use request::{LineRequest, SceneRequest, ScriptChange};
 pub use sounds::{SceneSound, SceneSounds};
 pub(in crate::panels) use template::NO_LINES;

@@ -1,9 +1,9 @@
-//! New things of a cast.
+//! New things of a cast, and new sounds.
 
 use dragonfly_anim::stage::gesture::GestureRefusal;
-use dragonfly_anim::stage::script::{ScriptTree, StageScript};
+use dragonfly_anim::stage::script::{ScriptElement, ScriptTree, StageScript};
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, unique_id};
-use std::sync::Arc;
+use dragonfly_anim::stage::time::{StageRate, StageTime, parse_time};
 
 /// A thing to add to the cast.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,33 +45,44 @@ impl NewThing {
         }
     }
 
-    /// Returns the element, with an id that no other element has.
-    fn element(&self, tree: &ScriptTree) -> NewElement {
-        let named = |name: &str, base: &str| NewElement::new(name).with("id", unique_id(tree, base));
+    /// Returns the text from which its id is made.
+    fn id_base(&self) -> &str {
+        match self {
+            Self::Role(model) | Self::RoleAt(model, _) | Self::Prop(model) => stem(model),
+            Self::Camera => "camera",
+            Self::Light => "light",
+            Self::Effect => "effect",
+            Self::Path | Self::DrawnPath(..) => "path",
+            Self::LinePath(line) => line,
+            Self::Mark => "mark",
+        }
+    }
+
+    /// Returns the element.
+    fn element(&self, tree: &ScriptTree, id: &str) -> NewElement {
+        let named = |name: &str| NewElement::new(name).with("id", id);
         match self {
             Self::Role(model) => {
                 // Next to each other, not inside of each other.
                 let roles = tree.elements().iter().filter(|element| element.row.name == "role").count();
-                named("role", stem(model)).with("model", model.as_str()).with("at", format!("{roles} 0 0"))
+                named("role").with("model", model.as_str()).with("at", format!("{roles} 0 0"))
             }
             Self::RoleAt(model, place) => {
-                named("role", stem(model)).with("model", model.as_str()).with("at", place.as_str())
+                named("role").with("model", model.as_str()).with("at", place.as_str())
             }
-            Self::Prop(model) => named("prop", stem(model)).with("model", model.as_str()).with("at", "0 0 0"),
-            Self::Camera => {
-                named("camera", "camera").with("at", "0 1.6 6").with("look", "0 1 0").with("lens", "35mm")
-            }
-            Self::Light => named("light", "light").with("kind", "sun").with("direction", "-1 -2 -1"),
+            Self::Prop(model) => named("prop").with("model", model.as_str()).with("at", "0 0 0"),
+            Self::Camera => named("camera").with("at", "0 1.6 6").with("look", "0 1 0").with("lens", "35mm"),
+            Self::Light => named("light").with("kind", "sun").with("direction", "-1 -2 -1"),
             Self::Effect => {
-                named("effect", "effect").with("kind", "particles").with("preset", "rain").with("at", "0 6 0")
+                named("effect").with("kind", "particles").with("preset", "rain").with("at", "0 6 0")
             }
-            Self::Path => named("path", "path").with("points", "0 0 0  2 0 0").with("curve", "smooth"),
+            Self::Path => named("path").with("points", "0 0 0  2 0 0").with("curve", "smooth"),
             Self::DrawnPath(points, is_smooth) => {
-                let path = named("path", "path").with("points", points.as_str());
+                let path = named("path").with("points", points.as_str());
                 if *is_smooth { path.with("curve", "smooth") } else { path }
             }
-            Self::LinePath(line) => named("path", line).with("line", line.as_str()),
-            Self::Mark => named("mark", "mark").with("at", "0 0 0"),
+            Self::LinePath(line) => named("path").with("line", line.as_str()),
+            Self::Mark => named("mark").with("at", "0 0 0"),
         }
     }
 }
@@ -82,36 +93,68 @@ fn stem(model: &str) -> &str {
     name.split_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// Returns the text with a new thing after the last one of its kind, and the id of the thing. `script` is the one that has the text, or from
-/// which it was made.
+/// Returns the script with a new thing after the last one of its kind, and the id of the thing, which no other element has.
 ///
 /// # Errors
 ///
 /// The result would be no script.
-pub fn new_thing_text(
+pub fn with_new_thing(
     script: &StageScript,
-    text: &Arc<str>,
     thing: &NewThing,
-) -> Result<(String, Box<str>), GestureRefusal> {
-    let mut tree = ScriptTree::read(Arc::clone(text))?;
-    if !tree.elements().iter().any(|element| element.row.name == "cast") {
-        let with_cast = insert(&tree, ElementPlace::First(0), &NewElement::new("cast"))
-            .map(|splices| splices.apply(tree.text()))
-            .unwrap_or_default();
-        tree = ScriptTree::read(with_cast)?;
-    }
-    let element = thing.element(&tree);
-    let kind = element.name();
-    let of_kind = |name: &str| tree.elements().iter().rposition(|element| element.row.name == name);
+) -> Result<(StageScript, Box<str>), GestureRefusal> {
+    let is_there = script.tree().elements().iter().any(|element| is_own(element, "cast"));
+    let with_cast = match is_there {
+        true => None,
+        false => Some(inserted(script, ElementPlace::First(0), &NewElement::new("cast"))?),
+    };
+    let script = with_cast.as_ref().unwrap_or(script);
+    let tree = script.tree();
+    let id = unique_id(tree, thing.id_base());
+    let element = thing.element(tree, &id);
+    let of_kind = |name: &str| tree.elements().iter().rposition(|element| is_own(element, name));
     let cast = of_kind("cast").unwrap_or_default();
     let last = tree.elements().iter().rposition(|element| element.parent == Some(cast));
-    let place = of_kind(kind).or(last).map_or(ElementPlace::First(cast), ElementPlace::After);
-    let new = insert(&tree, place, &element).map(|splices| splices.apply(tree.text())).unwrap_or_default();
-    let script = script.reread(new.as_str())?;
-    let ids = |script: &ScriptTree| -> Vec<Box<str>> {
-        script.elements().iter().filter_map(|element| element.value("id")).map(Into::into).collect()
-    };
-    let old = ids(&tree);
-    let id = ids(script.tree()).into_iter().find(|id| !old.contains(id)).unwrap_or_default();
-    Ok((new, id))
+    let place = of_kind(element.name()).or(last).map_or(ElementPlace::First(cast), ElementPlace::After);
+    Ok((inserted(script, place, &element)?, id.into()))
+}
+
+/// Returns the script with a sound of a file from `at` on, at its end; the name of the file is relative to the folder of the script.
+///
+/// # Errors
+///
+/// The result would be no script.
+pub fn with_new_sound(
+    script: &StageScript,
+    source: &str,
+    at: StageTime,
+) -> Result<StageScript, GestureRefusal> {
+    let sound = NewElement::new("sound").with("src", source);
+    let sound = if at > StageTime::ZERO { sound.with("begin", begin_text(at, script.rate())) } else { sound };
+    // The script is a `par`: what is in it begins at its start.
+    let last = script.tree().elements().iter().rposition(|element| element.parent == Some(0));
+    inserted(script, last.map_or(ElementPlace::First(0), ElementPlace::After), &sound)
+}
+
+/// Returns whether an element of this name is in the text of the script itself.
+fn is_own(element: &ScriptElement, name: &str) -> bool {
+    element.row.name == name && !element.is_shared
+}
+
+fn inserted(
+    script: &StageScript,
+    place: ElementPlace,
+    element: &NewElement,
+) -> Result<StageScript, GestureRefusal> {
+    let refused = || GestureRefusal(format!("A {} cannot be added to this script", element.name()));
+    let splices = insert(script.tree(), place, element).ok_or_else(refused)?;
+    Ok(script.reread(splices.apply(script.tree().text()))?)
+}
+
+/// Returns a time as it is written: seconds where three decimals are enough, else frames, else whole milliseconds.
+fn begin_text(at: StageTime, rate: StageRate) -> String {
+    let (seconds, thousandths) =
+        (|thousandths: f64| (thousandths / 1000.0).to_string(), at.seconds() * 1000.0);
+    let texts = [seconds(thousandths.round()), format!("{}f", rate.nearest_frame(at))];
+    let exact = texts.into_iter().find(|text| parse_time(text, rate) == Some(at));
+    exact.unwrap_or_else(|| seconds(thousandths.floor()))
 }

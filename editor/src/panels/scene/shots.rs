@@ -110,7 +110,7 @@ fn row(
     widgets::text_in(ui, text, &shown, &TextStyle::Body, color);
     if response.clicked() {
         requests.push(Request::Scene(SceneRequest::SelectAction(Some(shot.action))));
-        requests.push(Request::Seek(shot.begin.seconds() as f32));
+        requests.push(Request::Seek(context.playhead_at(shot.begin)));
     }
     if response.double_clicked() {
         requests.push(Request::Scene(SceneRequest::Through(ThroughCamera::Shot)));

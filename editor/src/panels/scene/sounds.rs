@@ -2,7 +2,7 @@
 
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_document::SoundPeaks;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A sound of a scene, as far as it is known.
@@ -40,6 +40,17 @@ impl SceneSounds {
     /// Returns the first sound of a plan of which nothing is known.
     pub fn wanted<'a>(&self, plan: &'a StagePlan) -> Option<&'a str> {
         plan.sounds().iter().map(|sound| &*sound.source).find(|source| !self.sounds.contains_key(*source))
+    }
+
+    /// Forgets the sounds that a plan does not name. One that is named again is read again: its file may be another one by then.
+    pub fn keep_named(&mut self, plan: &StagePlan) {
+        let named: BTreeSet<&str> = plan.sounds().iter().map(|sound| &*sound.source).collect();
+        self.sounds.retain(|source, _| named.contains(&**source));
+    }
+
+    /// Forgets the sounds that could not be read, so that they are read again: their files may be there now.
+    pub fn forget_problems(&mut self) {
+        self.sounds.retain(|_, sound| !matches!(sound, SceneSound::Problem(_)));
     }
 
     /// Notes that a sound is being read.

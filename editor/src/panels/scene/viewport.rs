@@ -7,6 +7,8 @@ use dragonfly_anim::stage::{StagePlan, StageScene};
 use dragonfly_document::SceneView;
 use dragonfly_document::history::Gesture;
 use egui::Pos2;
+use glam::DVec3;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -15,6 +17,9 @@ const SAME: f32 = 4.0;
 
 /// Time without a movement after which the next turn of the wheel is another step.
 const PAUSE: Duration = Duration::from_millis(400);
+
+/// Number of places of a point that texts tell apart, per meter.
+const PER_METER: f64 = 1e4;
 
 /// The state of the viewport of a scene; it contains nothing of the document.
 #[derive(Debug, Default)]
@@ -32,8 +37,10 @@ pub struct SceneViewport {
     written: Option<TextSplices>,
     /// The scene at the start of the drag of a point of a line.
     line_base: Option<Arc<SceneView>>,
-    /// The heights at which things are on the ground, at the start of a drag.
-    heights: Option<Arc<[Option<f32>]>>,
+    /// Where the drag in progress has put a point last, as texts have it.
+    point: Option<DVec3>,
+    /// The heights at which things that are moved are on the ground, at the start of the drag.
+    heights: Option<Arc<BTreeMap<usize, f32>>>,
     /// The gesture that moves a camera, which is one step.
     camera_drag: Option<Gesture>,
     /// When the wheel or a panel moved the camera last; `None` while the viewport is dragged.
@@ -114,6 +121,12 @@ impl SceneViewport {
         is_new
     }
 
+    /// Returns whether the drag in progress has not put a point there last, as far as texts tell places apart, and notes the place.
+    pub(in crate::panels) fn is_new_place(&mut self, place: DVec3) -> bool {
+        let place = (place * PER_METER).round();
+        self.point.replace(place) != Some(place)
+    }
+
     /// Returns the camera of the shot at the time computed last, as a position in the cast.
     pub fn shown_camera(&self) -> Option<usize> {
         self.shown.as_ref()?.scene.camera.map(|camera| camera.thing)
@@ -140,19 +153,19 @@ impl SceneViewport {
     }
 
     /// Returns the heights at which things are on the ground, meters, as they were at the start of the drag in progress.
-    pub(in crate::panels) fn heights(&self) -> Option<&Arc<[Option<f32>]>> {
+    pub(in crate::panels) fn heights(&self) -> Option<&Arc<BTreeMap<usize, f32>>> {
         self.heights.as_ref()
     }
 
     /// Sets the heights at which things are on the ground.
-    pub(in crate::panels) fn set_heights(&mut self, heights: Arc<[Option<f32>]>) {
+    pub(in crate::panels) fn set_heights(&mut self, heights: Arc<BTreeMap<usize, f32>>) {
         self.heights = Some(heights);
     }
 
     /// Forgets everything of the drag in progress.
     pub(in crate::panels) fn end_drag(&mut self) {
         self.set_base(None);
-        (self.line_base, self.heights) = (None, None);
+        (self.line_base, self.heights, self.point) = (None, None, None);
     }
 
     /// Returns the gesture that moves a camera.

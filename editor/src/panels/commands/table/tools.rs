@@ -15,7 +15,7 @@ commands! {
     ToolScale => When::Always, "Scale", [key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { tools::choose(w, Some(Tool::Scale)); None };
     ToolLine => When::Scene, "Draw lines", [key(NONE, Key::D)], "Draws lines of the project: drag freehand, with Shift straight; click corners and end with Enter; Ctrl erases", |w| { scene_lines::choose(w, LineUse::Note); None };
     ToolPath => When::Scene, "Draw a path", [key(SHIFT, Key::N)], "Draws a path on the ground that roles can follow: drag freehand, with Shift straight; click corners and end with Enter", |w| { scene_lines::choose(w, LineUse::Path); None };
-    PoseLine => When::BoneInTake, "Draw a pose line", [], "Lays the selected chain of bones along a stroke in the view, its line of action; D draws it while a model is open", |w| { pose_line::choose(w); None };
+    PoseLine => When::BoneInTake, "Draw a pose line", [], "Lays the selected chain of bones along a stroke in the view, its line of action. While a model is open, the keys of \"Draw lines\" begin it, too", |w| { pose_line::choose(w); None };
     LinesOnGround => When::Scene, "Draw on the ground", [], "Draws lines on the ground", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::Ground); None };
     LinesInView => When::Scene, "Draw in the view", [], "Draws lines in the plane through the point that the camera looks at", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::View); None };
     MoveNow => When::Movable, "Move with the mouse", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };

@@ -103,7 +103,7 @@ impl BarDragging {
             && let Some(SceneHit::Bar { action, .. }) = self.hovered
             && let Some((_, bar)) = sheet.lanes.bar_of(action)
         {
-            requests.push(Request::Seek(bar.begin.seconds() as f32));
+            requests.push(Request::Seek(sheet.context.playhead_at(bar.begin)));
         }
     }
 

@@ -27,6 +27,7 @@ use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 pub use lane_layout::{SceneBarPart, SceneHit, SceneLaneLayout};
 use sheet::SceneSheet;
 pub use snap::snapped_time;
+use waveform::SceneWaveforms;
 
 /// Width of the names of the lanes.
 const GUTTER: f32 = 150.0;
@@ -43,6 +44,7 @@ pub struct SceneTimeline {
     drag: BarDragging,
     scrub: dope::Scrub,
     menu: lane_menu::SceneMenu,
+    waveforms: SceneWaveforms,
 }
 
 impl Panel for SceneTimeline {
@@ -74,7 +76,7 @@ impl Panel for SceneTimeline {
             return widgets::empty(
                 ui,
                 "The timeline of a scene appears here",
-                "Choose \"New scene of two roles\" in the menu File, or open a scene.xml",
+                "Choose \"New scene of two roles\" in File ▸ New, or open a scene.xml",
             );
         };
         if scene.plan.is_none() {
@@ -152,7 +154,7 @@ impl SceneTimeline {
         };
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         paint::lanes(&painter, &sheet);
-        paint::bars(&painter, &sheet, self.drag.hovered());
+        paint::bars(&painter, &sheet, self.drag.hovered(), &mut self.waveforms);
         self.drag.update(ui, &response, &sheet, requests);
         self.menu.show(&response, &self.drag, &sheet, requests);
         ruler::show(&mut self.scrub, ui, &painter, &sheet, &mut moved);

@@ -2,7 +2,7 @@
 
 use super::lane_layout::{SceneHit, fade_handles};
 use super::sheet::SceneSheet;
-use super::waveform;
+use super::waveform::{SceneWaveforms, sound_of};
 use crate::panels::scene::SceneSound;
 use crate::panels::theme::Theme;
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane};
@@ -44,7 +44,13 @@ pub(super) fn lanes(painter: &Painter, sheet: &SceneSheet<'_>) {
 }
 
 /// Draws all bars.
-pub(super) fn bars(painter: &Painter, sheet: &SceneSheet<'_>, hovered: Option<SceneHit>) {
+pub(super) fn bars(
+    painter: &Painter,
+    sheet: &SceneSheet<'_>,
+    hovered: Option<SceneHit>,
+    waveforms: &mut SceneWaveforms,
+) {
+    waveforms.begin_frame();
     let painter = painter.with_clip_rect(sheet.canvas.intersect(painter.clip_rect()));
     let top = sheet.canvas.top() - sheet.scroll;
     for (index, lane) in sheet.lanes.list.iter().enumerate() {
@@ -60,7 +66,8 @@ pub(super) fn bars(painter: &Painter, sheet: &SceneSheet<'_>, hovered: Option<Sc
             {
                 let is_hovered =
                     matches!(hovered, Some(SceneHit::Bar { action, .. }) if action == bar.action);
-                draw_bar(&painter, sheet, lane, bar, rect, is_hovered, is_dim);
+                let state = BarState { is_hovered, is_dim };
+                draw_bar(&painter, sheet, (lane, bar, rect), state, waveforms);
                 if let Some((_, other)) =
                     before.filter(|(other, _)| bar.is_main && other.is_main && bar.kind != "shot")
                 {
@@ -88,14 +95,18 @@ fn hue(theme: &Theme, lane: &SceneLane, bar: &SceneBar) -> Color32 {
     theme.bone_hue(at, 1)
 }
 
+#[derive(Clone, Copy)]
+struct BarState {
+    is_hovered: bool,
+    is_dim: bool,
+}
+
 fn draw_bar(
     painter: &Painter,
     sheet: &SceneSheet<'_>,
-    lane: &SceneLane,
-    bar: &SceneBar,
-    rect: Rect,
-    is_hovered: bool,
-    is_dim: bool,
+    (lane, bar, rect): (&SceneLane, &SceneBar, Rect),
+    BarState { is_hovered, is_dim }: BarState,
+    waveforms: &mut SceneWaveforms,
 ) {
     let theme = sheet.theme;
     let is_selected = sheet.context.scene_editing.action() == Some(bar.action);
@@ -109,7 +120,7 @@ fn draw_bar(
     painter.rect_filled(rect, radius, theme.sunken);
     let fill = color.gamma_multiply(if is_hovered || is_selected { 0.42 } else { 0.30 });
     painter.rect_filled(rect, radius, fill);
-    waveform::show(painter, sheet, bar, rect, color.gamma_multiply(0.8));
+    waveforms.show(painter, sheet, bar, rect, color.gamma_multiply(0.8));
     fades(painter, sheet, bar, rect, color);
     for time in bar.repetitions(MOST_REPETITIONS) {
         let x = sheet.scale.x_of(time.seconds() as f32);
@@ -139,7 +150,7 @@ fn draw_bar(
     let shown = rect.intersect(sheet.canvas);
     if shown.width() > 18.0 {
         let color = if is_dim { theme.faint } else { theme.text };
-        match waveform::sound_of(sheet, bar) {
+        match sound_of(sheet, bar) {
             Some(SceneSound::Problem(reason)) => label(painter, shown, reason, theme.warning),
             Some(SceneSound::Reading | SceneSound::Read(_)) | None => {
                 label(painter, shown, &bar.label, color)

@@ -33,7 +33,7 @@ pub(super) fn show(
         // No action has the number 0: all ends count.
         let snapped =
             if snaps { snapped_time(time, sheet.lanes, 0, frame_at(time, rate), reach, rate) } else { time };
-        Some(snapped.seconds() as f32)
+        Some(context.playhead_at(snapped))
     };
     let response = scrub.follow(ui, &ruler, seconds, requests);
     if response.double_clicked() {

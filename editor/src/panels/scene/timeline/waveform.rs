@@ -1,51 +1,63 @@
-//! The waveform of a sound on its bar.
+//! The waveforms of sounds on their bars.
 
 use super::sheet::SceneSheet;
 use crate::panels::scene::SceneSound;
+use crate::panels::waveform::{Waveform, WaveformLook};
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::script::StageRepeat;
-use dragonfly_document::SoundPeaks;
-use egui::{Color32, Mesh, Painter, Rect, Shape, pos2};
+use egui::{Color32, Painter, Rect, vec2};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
-/// Largest number of columns of a bar.
-const MOST: usize = 8_000;
+/// Distance of the waveform from the edges of its bar, points.
+const MARGIN: f32 = 2.0;
+
+/// The waveforms that were drawn last, by the actions.
+#[derive(Debug, Default)]
+pub(super) struct SceneWaveforms {
+    drawn: BTreeMap<usize, Waveform>,
+    /// Those of the frame before.
+    before: BTreeMap<usize, Waveform>,
+}
 
 /// Returns what is known of the sound of a bar; `None` for other bars, and before it is asked for.
 pub(super) fn sound_of<'a>(sheet: &SceneSheet<'a>, bar: &SceneBar) -> Option<&'a SceneSound> {
-    let sounds = sheet.scene.plan.as_ref()?.sounds();
-    let cue = sounds.iter().find(|sound| sound.action() == bar.action)?;
-    sheet.context.scene_editing.sounds().get(&cue.source)
+    let script = sheet.scene.script.as_ref().filter(|_| bar.kind == "sound")?;
+    script.actions().get(bar.action)?;
+    sheet.context.scene_editing.sounds().get(script.element(bar.action).value("src")?)
 }
 
-/// Draws the waveform of the part of a bar that is in sight, from the least to the greatest sample in every column of pixels.
-pub(super) fn show(painter: &Painter, sheet: &SceneSheet<'_>, bar: &SceneBar, rect: Rect, color: Color32) {
-    let Some(SceneSound::Read(peaks)) = sound_of(sheet, bar) else { return };
-    let seen = rect.intersect(sheet.canvas);
-    let step = 1.0 / painter.ctx().pixels_per_point().max(0.1);
-    let columns = ((seen.width() / step).max(0.0) as usize).min(MOST);
-    let (middle, half) = (rect.center().y, rect.height() / 2.0 - 2.0);
-    let mut mesh = Mesh::default();
-    for column in 0..columns {
-        let x = seen.left() + column as f32 * step;
-        let [from, to] = [x, x + step].map(|x| f64::from(sheet.scale.time_at(x)) - bar.begin.seconds());
-        let Some([low, high]) = peak(peaks, bar.repeat, from, to) else { continue };
-        let thin = (0.5 - half * (high - low) / 2.0).max(0.0);
-        let (top, bottom) = (middle - half * high - thin, middle - half * low + thin);
-        mesh.add_colored_rect(Rect::from_min_max(pos2(x, top), pos2(x + step, bottom)), color);
+impl SceneWaveforms {
+    /// Begins a frame: waveforms that it does not draw are forgotten.
+    pub(super) fn begin_frame(&mut self) {
+        self.before = std::mem::take(&mut self.drawn);
     }
-    painter.add(Shape::mesh(mesh));
-}
 
-/// Returns the least and the greatest sample between two times after the start of a sound that repeats; `None` after its end.
-fn peak(peaks: &SoundPeaks, repeat: StageRepeat, from: f64, to: f64) -> Option<[f32; 2]> {
-    let length = peaks.seconds();
-    let times = match repeat {
-        StageRepeat::Fill => f64::INFINITY,
-        StageRepeat::Times(times) => times.to_f64(),
-    };
-    if !(length > 0.0 && from >= 0.0 && from < length * times) {
-        return None;
+    /// Draws the waveform of the part of a bar that is in sight.
+    pub(super) fn show(
+        &mut self,
+        painter: &Painter,
+        sheet: &SceneSheet<'_>,
+        bar: &SceneBar,
+        rect: Rect,
+        color: Color32,
+    ) {
+        let Some(SceneSound::Read(peaks)) = sound_of(sheet, bar) else { return };
+        let seen = rect.intersect(sheet.canvas).x_range();
+        let look = WaveformLook {
+            peaks: Arc::clone(peaks),
+            start: bar.begin.seconds(),
+            times: match bar.repeat {
+                StageRepeat::Fill => f64::INFINITY,
+                StageRepeat::Times(times) => times.to_f64(),
+            },
+            scale: *sheet.scale,
+            rect: Rect::from_x_y_ranges(seen, rect.y_range()).shrink2(vec2(0.0, MARGIN)),
+            pixels_per_point: painter.ctx().pixels_per_point(),
+            color,
+        };
+        let mut waveform = self.before.remove(&bar.action).unwrap_or_default();
+        waveform.show(painter, look);
+        self.drawn.insert(bar.action, waveform);
     }
-    let start = from - (from / length).floor() * length;
-    peaks.between(start, start + (to - from).max(0.0))
 }
