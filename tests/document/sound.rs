@@ -1,11 +1,11 @@
 //! Peaks of sound files: WAV in several sample formats, FLAC and Ogg Vorbis; files that are refused.
 
-use dragonfly_document::{Cancel, SoundPeaks};
+use dragonfly_document::{Cancel, SoundPeaks, SoundSource};
 use dragonfly_kit::folder::Folder;
 use std::path::Path;
 
 fn read(path: &Path) -> Result<SoundPeaks, String> {
-    SoundPeaks::read(path, &Cancel::default())
+    SoundSource::File(path.to_path_buf()).peaks(&Cancel::default())
 }
 
 /// Returns the bytes of a WAV file with one channel at 8,000 samples per second, 16 bits each.
@@ -113,7 +113,8 @@ fn damaged_files_and_other_formats_are_refused_with_a_message() {
         ("empty.wav", &wav(&[], 1)[..], "it has no samples"),
         ("broken.flac", &b"fLaC and nothing else"[..], "broken.flac cannot be read"),
         ("broken.ogg", &b"OggS and nothing else"[..], "broken.ogg cannot be read"),
-        ("song.mp3", &b"ID3\x04 a song"[..], "ffmpeg -i song.mp3 sound.wav"),
+        ("song.mp3", &b"ID3\x04 a song"[..], "song.mp3 cannot be read"),
+        ("song.m4a", &b"\0\0\0\x20ftypM4A and nothing else"[..], "ffmpeg -i song.m4a sound.wav"),
         ("short.wav", &b"RI"[..], "short.wav cannot be read"),
     ] {
         let path = folder.join(name);
@@ -124,6 +125,6 @@ fn damaged_files_and_other_formats_are_refused_with_a_message() {
     let cancelled = Cancel::default();
     cancelled.cancel();
     std::fs::write(folder.join("whole.wav"), whole).expect("a file");
-    assert!(SoundPeaks::read(&folder.join("whole.wav"), &cancelled).is_err());
+    assert!(SoundSource::File(folder.join("whole.wav")).peaks(&cancelled).is_err());
     assert!(read(&folder.join("missing.wav")).is_err());
 }

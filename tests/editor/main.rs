@@ -108,6 +108,7 @@ mod selection_sets;
 mod settings;
 mod shape_keys;
 mod shape_keys_everywhere;
+mod sound_player;
 mod stdio;
 mod stdio_journal;
 mod store_full;

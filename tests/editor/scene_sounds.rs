@@ -1,14 +1,12 @@
 //! Sounds of a scene: which are read, and the messages about them.
 
 use crate::scene_bench::{FOXES, scene};
-use crate::scene_lines::run;
 use crate::scene_script::{put_cursor, type_text};
 use crate::workbench::{Window, Workbench};
 use dragonfly::app::scene_sounds::{SceneSoundAnswer, SceneSoundLoader};
-use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::{SceneRequest, SceneSound};
 use dragonfly::panels::{Request, State};
-use dragonfly_document::{Cancel, FileView, SoundPeaks, View};
+use dragonfly_document::{Cancel, FileView, SoundPeaks, SoundSource, View};
 use dragonfly_kit::folder::Folder;
 use dragonfly_runtime::{Address, Context, Receiver, Thread};
 use egui_kittest::kittest::Queryable;
@@ -17,21 +15,21 @@ use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 /// The foxes with a thunder of half a second at one second, twice, and one that is missing.
-fn thunder() -> String {
+pub(crate) fn thunder() -> String {
     let sounds =
         "<sound src=\"thunder.wav\" begin=\"1\" repeat=\"2\"/>\n    <sound src=\"none.wav\" begin=\"2\"/>";
     FOXES.replace("    <title", &format!("    {sounds}\n    <title"))
 }
 
 /// Returns the peaks of half a second of full loudness.
-fn peaks() -> SoundPeaks {
+pub(crate) fn peaks() -> SoundPeaks {
     let folder = Folder::new("scene-sound");
     let path = folder.join("thunder.wav");
     write_thunder(&path);
-    SoundPeaks::read(&path, &Cancel::default()).expect("a sound")
+    SoundSource::File(path).peaks(&Cancel::default()).expect("a sound")
 }
 
-fn write_thunder(path: &Path) {
+pub(crate) fn write_thunder(path: &Path) {
     let spec = hound::WavSpec {
         channels: 1,
         sample_rate: 8000,
@@ -45,7 +43,7 @@ fn write_thunder(path: &Path) {
 }
 
 /// Longer than a sound takes to be read on a busy machine.
-const LIMIT: Duration = Duration::from_secs(30);
+pub(crate) const LIMIT: Duration = Duration::from_secs(30);
 
 /// Passes what it receives on to a test.
 pub(crate) struct Forward<M>(mpsc::Sender<M>);
@@ -68,7 +66,7 @@ pub(crate) fn forwarding<M: Send + 'static>() -> (Thread, Address<M>, mpsc::Rece
 }
 
 /// Says that the scene is a file in a folder.
-fn move_to(bench: &mut Workbench, folder: &Folder) {
+pub(crate) fn move_to(bench: &mut Workbench, folder: &Folder) {
     let view = bench.state.read().view.cloned().expect("a view");
     let file = FileView { path: Some(folder.join("scene.xml")), ..FileView::clone(&view.file) };
     bench.state.show(View { file: Arc::new(file), generation: view.generation + 1, ..view });
@@ -184,10 +182,6 @@ fn a_sound_that_could_not_be_read_is_read_again_when_its_file_may_be_there() {
     assert!(reason.starts_with("thunder.wav: ") && reason.contains("stopped"), "{reason}");
 }
 
-fn said(window: &Window) -> String {
-    window.state().state.read().status.last().map(|message| message.text.clone()).unwrap_or_default()
-}
-
 #[test]
 fn each_sound_of_a_scene_is_wanted_once() {
     let mut bench = scene(&thunder());
@@ -264,18 +258,4 @@ fn a_waveform_is_computed_only_when_something_of_it_changed() {
     let closer = waveforms(&window);
     assert!(closer.len() == 1 && !Arc::ptr_eq(&first[0], &closer[0]), "another part of time is shown");
     assert!(closer[0].vertices.len() > first[0].vertices.len());
-}
-
-#[test]
-fn playing_a_scene_with_sounds_tells_once_that_they_are_silent() {
-    let mut window = scene(&thunder()).window();
-    run(&mut window, Id::PlayPause);
-    assert!(said(&window).contains("no sound output"), "{}", said(&window));
-    run(&mut window, Id::PlayPause);
-    window.state_mut().state.say(dragonfly::panels::status::MessageSeverity::Info, "something else");
-    run(&mut window, Id::PlayPause);
-    assert_eq!(said(&window), "something else");
-    let mut silent = scene(FOXES).window();
-    run(&mut silent, Id::PlayPause);
-    assert!(!said(&silent).contains("no sound output"), "{}", said(&silent));
 }

@@ -4,7 +4,7 @@ use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::sound::SoundSettings;
-use dragonfly_document::{Cancel, SoundPeaks, Source};
+use dragonfly_document::{Cancel, SoundSource, Source};
 use dragonfly_kit::folder::Folder;
 use egui::{Shape, vec2};
 use egui_kittest::kittest::Queryable;
@@ -28,7 +28,7 @@ fn animator(folder: &Folder) -> Animator {
     animator.request(Request::FrameRate(24));
     animator.request(Request::Open(Source::File(path.clone())));
     assert_eq!(animator.harness.state().state.read().sound.settings().file, path, "a sound is no model");
-    let peaks = SoundPeaks::read(&path, &Cancel::default());
+    let peaks = SoundSource::File(path.clone()).peaks(&Cancel::default());
     animator.harness.state_mut().state.sound().read(peaks);
     animator.steps(3);
     animator

@@ -89,18 +89,18 @@ fn fades_and_repeats_are_those_of_the_script() {
     let ramp: Vec<f32> = (0..500).map(|at| at as f32 / 500.0).collect();
     wav(&path, 1, 1_000, &ramp);
     let ramp = Arc::new(samples(&path).expect("a sound"));
-    let repeating = MixedSounds::Scene {
-        plan: plan_with_length("<sound src=\"a.wav\" begin=\"1\" repeat=\"3\"/>", 0.5),
-        samples: vec![Some(Arc::clone(&ramp))],
-    };
-    let mut mix = SoundMix::new(repeating);
-    for (time, wanted) in [(1.25, 0.5), (1.75, 0.5), (2.1, 0.2), (2.4, 0.8), (2.6, 0.0)] {
-        let [heard, _] = heard(&mut mix, time, 1.0 / RATE, 1)[0];
-        assert!((heard - wanted).abs() < 5e-3, "{heard} at {time} s instead of {wanted}");
+    // Whether the plan knows how long the sound is or not.
+    let three = "<sound src=\"a.wav\" begin=\"1\" repeat=\"3\"/>";
+    for plan in [plan_with_length(three, 0.5), plan(three)] {
+        let mut mix = SoundMix::new(MixedSounds::Scene { plan, samples: vec![Some(Arc::clone(&ramp))] });
+        for (time, wanted) in [(1.25, 0.5), (1.75, 0.5), (2.1, 0.2), (2.4, 0.8), (2.6, 0.0)] {
+            let [heard, _] = heard(&mut mix, time, 1.0 / RATE, 1)[0];
+            assert!((heard - wanted).abs() < 5e-3, "{heard} at {time} s instead of {wanted}");
+        }
+        // Also in the block in which it starts again.
+        let frames = heard(&mut mix, 1.5 - 64.0 / RATE, 1.0 / RATE, 128);
+        assert!(frames[100][0] < 0.05 && frames[20][0] > 0.9, "{:?}", frames[100]);
     }
-    // Also in the block in which it starts again.
-    let frames = heard(&mut mix, 1.5 - 64.0 / RATE, 1.0 / RATE, 128);
-    assert!(frames[100][0] < 0.05 && frames[20][0] > 0.9, "{:?}", frames[100]);
 }
 
 /// Returns a plan that knows how long its sounds are.

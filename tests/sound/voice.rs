@@ -70,6 +70,18 @@ fn what_is_heard_follows_the_clock_over_the_end_of_a_loop() {
 }
 
 #[test]
+fn a_clock_that_goes_back_and_forth_is_heard_backwards_on_its_way_back_and_one_that_stands_is_silent() {
+    let mut bench = VoiceBench::new();
+    // To 1.5 s and back.
+    bench.play(|passed| 1.5 - (passed.as_secs_f64() - 0.5).abs(), 1.0);
+    let frames = bench.heard(0.0, RATE as usize * 2);
+    assert!(is_near(&frames[600..RATE as usize - 600], 0.5), "from 1 to 1.5 s and back to 1");
+    assert!(is_near(&frames[RATE as usize + 600..], 0.0), "before the sound");
+    bench.play(|_| 1.5, 1.0);
+    assert!(is_near(&bench.heard(0.0, 1_000), 0.0));
+}
+
+#[test]
 fn small_differences_of_the_clocks_are_not_heard_and_large_ones_are_followed() {
     let mut bench = VoiceBench::new();
     bench.play(|passed| 1.0 + passed.as_secs_f64(), 1.0);

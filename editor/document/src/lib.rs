@@ -121,7 +121,7 @@ pub use scan::Decision;
 pub use scene_source::{LoadedScene, SceneLoadError, load_scene};
 pub use scene_view::{SceneModel, SceneView};
 pub use shapes::{ModelShapes, ShapeMesh};
-pub use sound::SoundPeaks;
+pub use sound::{SoundPeaks, SoundSource};
 pub use source::{LoadError, Source};
 pub use step_amount::{PoseChange, StepAmount};
 pub use take_check::{CheckedTake, TakeCheck};

@@ -1,10 +1,9 @@
-//! Sound files as peaks for a waveform: WAV, FLAC and Ogg Vorbis. Everything here reads files and is called in jobs.
+//! Sound files as peaks for a waveform. Everything here reads files and is called in jobs.
 
 use super::Cancel;
-use super::folder::open_file;
-use std::fs::File;
-use std::io::{BufReader, Read, Seek};
-use std::path::Path;
+use super::folder::{Folder, open_file};
+use dragonfly_sound::{SoundReader, SoundSamples};
+use std::path::{Path, PathBuf};
 
 /// Number of samples of a block of the finest level.
 const BLOCK: u64 = 64;
@@ -12,10 +11,6 @@ const BLOCK: u64 = 64;
 const FACTOR: usize = 4;
 /// Largest number of samples of a channel: about twelve hours.
 const MOST_SAMPLES: u64 = 1 << 31;
-/// Largest file, bytes.
-const LARGEST_FILE: u64 = 4 << 30;
-/// Largest number of channels.
-const MOST_CHANNELS: usize = 64;
 
 /// Least and greatest sample of a block, in 127ths of full scale.
 type BlockPeak = [i8; 2];
@@ -32,42 +27,12 @@ pub struct SoundPeaks {
 }
 
 impl SoundPeaks {
-    /// Reads a sound file that the user named.
-    ///
-    /// # Errors
-    ///
-    /// A sentence for the user: the file cannot be read, is damaged, too long, or of another format.
-    pub fn read(path: &Path, cancel: &Cancel) -> Result<Self, String> {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let file = open_file(path).map_err(|error| format!("{name} {error}"))?;
-        Self::read_from(file, &name, cancel)
-    }
-
-    /// Reads a sound file that is open; `name` is for messages.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::read`].
-    pub fn read_from(mut file: File, name: &str, cancel: &Cancel) -> Result<Self, String> {
-        let wrong = |reason: &dyn std::fmt::Display| format!("{name} cannot be read: {reason}");
-        let about = file.metadata().map_err(|error| wrong(&error))?;
-        if !about.is_file() || about.len() > LARGEST_FILE {
-            return Err(wrong(&format!("it is no file of at most {} GB", LARGEST_FILE >> 30)));
+    fn of(reader: &mut SoundReader, cancel: &Cancel) -> Result<Self, String> {
+        let mut peaks = PeakCollector::new(reader, cancel);
+        while let Some(block) = reader.next_block()? {
+            block.iter().try_for_each(|&sample| peaks.push(sample))?;
         }
-        let mut start = [0; 4];
-        file.read_exact(&mut start).and_then(|()| file.rewind()).map_err(|error| wrong(&error))?;
-        let reader = BufReader::with_capacity(1 << 16, file);
-        let read = std::panic::AssertUnwindSafe(|| match &start {
-            b"RIFF" => wav(reader, cancel),
-            b"fLaC" => flac(reader, cancel),
-            b"OggS" => vorbis(reader, cancel),
-            _ => {
-                Err(format!("it is neither WAV, FLAC nor Ogg Vorbis; convert it: ffmpeg -i {name} sound.wav"))
-            }
-        });
-        // A decoder that panics loses only its sound.
-        let peaks = std::panic::catch_unwind(read).unwrap_or_else(|_| Err("the decoder failed".to_owned()));
-        peaks.map_err(|reason| wrong(&reason))
+        peaks.finish()
     }
 
     /// Returns its length in seconds.
@@ -112,6 +77,55 @@ fn joined(a: BlockPeak, b: BlockPeak) -> BlockPeak {
     [a[0].min(b[0]), a[1].max(b[1])]
 }
 
+/// A sound file by its place.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SoundSource {
+    /// A file that the user chose.
+    File(PathBuf),
+    /// A file in a folder or below it, as a script names it; what leads elsewhere is refused.
+    Below {
+        /// The folder.
+        folder: PathBuf,
+        /// The name in the script.
+        name: String,
+    },
+}
+
+impl SoundSource {
+    /// Reads the peaks of the sound.
+    ///
+    /// # Errors
+    ///
+    /// A sentence for the user: the file cannot be read, is damaged, too long, or of another format.
+    pub fn peaks(&self, cancel: &Cancel) -> Result<SoundPeaks, String> {
+        self.read(|reader| SoundPeaks::of(reader, cancel))
+    }
+
+    /// Reads the samples of the sound, to be played.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Self::peaks`].
+    pub fn samples(&self, cancel: &Cancel) -> Result<SoundSamples, String> {
+        self.read(|reader| SoundSamples::read(reader, &|| cancel.is_cancelled()))
+    }
+
+    fn read<T>(&self, read: impl FnOnce(&mut SoundReader) -> Result<T, String>) -> Result<T, String> {
+        let (name, file) = match self {
+            Self::File(path) => {
+                (path.file_name().unwrap_or_default().to_string_lossy().into_owned(), open_file(path))
+            }
+            Self::Below { folder, name } => {
+                let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+                (name.clone(), Folder::new(folder).and_then(|folder| folder.open(name)))
+            }
+        };
+        let file = file.map_err(|error| format!("{name} {error}"))?;
+        let read = SoundReader::new(file, &name).and_then(|mut reader| read(&mut reader));
+        read.map_err(|reason| format!("{name} cannot be read: {reason}"))
+    }
+}
+
 /// Collects the peaks of samples as they are decoded.
 struct PeakCollector<'a> {
     cancel: &'a Cancel,
@@ -124,11 +138,9 @@ struct PeakCollector<'a> {
 }
 
 impl<'a> PeakCollector<'a> {
-    fn new(rate: u32, channels: usize, cancel: &'a Cancel) -> Result<Self, String> {
-        if rate == 0 || channels == 0 || channels > MOST_CHANNELS {
-            return Err(format!("it has {channels} channels with {rate} samples per second"));
-        }
-        Ok(Self { cancel, rate, channels, values: 0, now: None, blocks: Vec::new() })
+    fn new(reader: &SoundReader, cancel: &'a Cancel) -> Self {
+        let (rate, channels) = (reader.rate(), reader.channels());
+        Self { cancel, rate, channels, values: 0, now: None, blocks: Vec::new() }
     }
 
     /// Adds the next sample, -1 to 1; those of all channels follow one another.
@@ -162,49 +174,4 @@ impl<'a> PeakCollector<'a> {
         let samples = self.values / self.channels as u64;
         Ok(SoundPeaks { rate: self.rate, samples, channels: self.channels, levels })
     }
-}
-
-fn wav(reader: BufReader<File>, cancel: &Cancel) -> Result<SoundPeaks, String> {
-    let mut reader = hound::WavReader::new(reader).map_err(|error| error.to_string())?;
-    let spec = reader.spec();
-    let mut peaks = PeakCollector::new(spec.sample_rate, usize::from(spec.channels), cancel)?;
-    match spec.sample_format {
-        hound::SampleFormat::Float => {
-            for sample in reader.samples::<f32>() {
-                peaks.push(sample.map_err(|error| error.to_string())?)?;
-            }
-        }
-        hound::SampleFormat::Int => {
-            let full = 2f32.powi(i32::from(spec.bits_per_sample.clamp(1, 32)) - 1);
-            for sample in reader.samples::<i32>() {
-                peaks.push(sample.map_err(|error| error.to_string())? as f32 / full)?;
-            }
-        }
-    }
-    peaks.finish()
-}
-
-fn flac(reader: BufReader<File>, cancel: &Cancel) -> Result<SoundPeaks, String> {
-    let mut reader = claxon::FlacReader::new(reader).map_err(|error| error.to_string())?;
-    let about = reader.streaminfo();
-    let mut peaks = PeakCollector::new(about.sample_rate, about.channels as usize, cancel)?;
-    let full = 2f32.powi(about.bits_per_sample.clamp(1, 32) as i32 - 1);
-    for sample in reader.samples() {
-        peaks.push(sample.map_err(|error| error.to_string())? as f32 / full)?;
-    }
-    peaks.finish()
-}
-
-fn vorbis(reader: BufReader<File>, cancel: &Cancel) -> Result<SoundPeaks, String> {
-    let text = |error: lewton::VorbisError| error.to_string();
-    let mut reader = lewton::inside_ogg::OggStreamReader::new(reader).map_err(text)?;
-    let about = &reader.ident_hdr;
-    let channels = usize::from(about.audio_channels);
-    let mut peaks = PeakCollector::new(about.audio_sample_rate, channels, cancel)?;
-    while let Some(packet) = reader.read_dec_packet_itl().map_err(text)? {
-        for sample in packet {
-            peaks.push(f32::from(sample) / 32768.0)?;
-        }
-    }
-    peaks.finish()
 }

@@ -31,7 +31,18 @@ impl MixedSounds {
     /// Writes what is heard at a time, seconds.
     fn playing(&self, time: f64, out: &mut Vec<PlayingSound>) {
         match self {
-            Self::Scene { plan, .. } => plan.playing_sounds(StageTime::from_seconds(time), out),
+            Self::Scene { plan, samples } => {
+                plan.playing_sounds(StageTime::from_seconds(time), out);
+                // The plan may not know how long its sounds are.
+                out.retain_mut(|heard| {
+                    let Some(Some(samples)) = samples.get(heard.sound) else { return false };
+                    let times = [heard.seconds, samples.seconds()].map(StageTime::from_seconds);
+                    let within =
+                        plan.sounds().get(heard.sound).and_then(|cue| cue.within(times[0], times[1]));
+                    heard.seconds = within.map_or(heard.seconds, StageTime::seconds);
+                    within.is_some()
+                });
+            }
             Self::Take { begin, samples } => {
                 out.clear();
                 let seconds = time - begin;

@@ -5,14 +5,14 @@ use super::file_dialog::{self, Answer, Purpose};
 use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, HoverPoint};
 use super::interface::Interface;
+use super::interface_receiver::interface_address;
 use super::options::Options;
-use super::reference_loader::{ReferenceAnswer, ReferenceAnswers};
-use super::replies::{Answers, Replies};
-use super::scene_maker::{self, SceneAnswer, SceneMakerReceiver};
-use super::scene_sound_answers::SceneSoundAnswers;
+use super::reference_loader::ReferenceAnswer;
+use super::scene_maker::{self, SceneAnswer};
 use super::scene_sounds::SceneSoundAnswer;
-use super::sound_loader::{SoundAnswer, SoundAnswers};
-use super::state_trace;
+use super::sound_loader::SoundAnswer;
+use super::sound_player::SamplesAnswer;
+use super::{file_actions, replies, state_trace};
 use crate::panels::status::MessageSeverity;
 use crate::panels::window_status::DeviceStatus;
 use crate::panels::{Effect, Request};
@@ -47,6 +47,7 @@ pub(super) struct Running {
     references: Address<ReferenceAnswer>,
     sounds: Address<SoundAnswer>,
     scene_sounds: Address<SceneSoundAnswer>,
+    samples: Address<SamplesAnswer>,
     scenes: Address<SceneAnswer>,
     graphics_sync: GraphicsSync,
     /// Number of questions sent to the graphics thread.
@@ -103,7 +104,7 @@ impl EditorRuntime {
             {
                 let mut interface = running.parts.interface.borrow_mut();
                 interface.update_reference(&running.references);
-                interface.update_sound(&running.sounds, &running.scene_sounds);
+                interface.update_sound(&running.sounds, &running.scene_sounds, &running.samples);
             }
             let interface = running.parts.interface.borrow();
             let (state, scale) = (interface.state.read(), interface.pixels_per_point());
@@ -214,21 +215,14 @@ impl BaseRuntime for EditorRuntime {
             interface.edits = std::mem::take(&mut self.options.edits);
             interface.faults = self.options.faults.clone();
         }
-        let (replies, answers) = (main.handle().reserve_address(), main.handle().reserve_address());
-        let (hears, chooses) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
-        main.register_restartable_receiver_at(&replies, move |_| Replies { interface: Rc::clone(&hears) });
-        main.register_restartable_receiver_at(&answers, move |_| Answers(Rc::clone(&chooses)));
-        let references = main.handle().reserve_address();
-        let (shows, draws) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
-        let sounds = main.handle().reserve_address();
-        let scenes = main.handle().reserve_address();
-        let opens = Rc::clone(&parts.interface);
-        main.register_restartable_receiver_at(&scenes, move |_| SceneMakerReceiver(Rc::clone(&opens)));
-        main.register_restartable_receiver_at(&sounds, move |_| SoundAnswers(Rc::clone(&draws)));
-        let scene_sounds = main.handle().reserve_address();
-        let tells = Rc::clone(&parts.interface);
-        main.register_restartable_receiver_at(&scene_sounds, move |_| SceneSoundAnswers(Rc::clone(&tells)));
-        main.register_restartable_receiver_at(&references, move |_| ReferenceAnswers(Rc::clone(&shows)));
+        let shown = &parts.interface;
+        let replies = interface_address(main, shown, replies::show);
+        let answers = interface_address(main, shown, file_actions::chosen);
+        let references = interface_address(main, shown, Interface::reference_answered);
+        let sounds = interface_address(main, shown, Interface::sound_answered);
+        let scene_sounds = interface_address(main, shown, Interface::scene_sound_answered);
+        let samples = interface_address(main, shown, Interface::samples_answered);
+        let scenes = interface_address(main, shown, scene_maker::made);
         let setup = self.setup();
         let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {
@@ -251,6 +245,7 @@ impl BaseRuntime for EditorRuntime {
             references,
             sounds,
             scene_sounds,
+            samples,
             scenes,
             leaving: false,
             graphics_sync: GraphicsSync::default(),

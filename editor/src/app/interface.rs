@@ -7,6 +7,7 @@ use super::pointer_place;
 use super::reference_loader::{ReferenceAnswer, ReferenceLoader};
 use super::scene_sounds::{SceneSoundAnswer, SceneSoundLoader};
 use super::sound_loader::{SoundAnswer, SoundLoader};
+use super::sound_player::{SamplesAnswer, SoundPlayer};
 use super::state_trace::StateTrace;
 use super::store::{self, Store};
 use crate::panels::commands;
@@ -75,6 +76,7 @@ pub struct Interface {
     reference: ReferenceLoader,
     sound: SoundLoader,
     scene_sounds: SceneSoundLoader,
+    sound_player: SoundPlayer,
 }
 
 impl Interface {
@@ -119,6 +121,7 @@ impl Interface {
             reference: ReferenceLoader::default(),
             sound: SoundLoader::default(),
             scene_sounds: SceneSoundLoader::default(),
+            sound_player: SoundPlayer::default(),
         }
     }
 
@@ -312,14 +315,21 @@ impl Interface {
         self.reference.receive(&mut self.state, answer);
     }
 
-    /// Starts the jobs that read the sound of a take, if another one was chosen, and those of a scene.
+    /// Starts the jobs that read the sound of a take, if another one was chosen, and those of a scene; plays them along the playhead.
     pub(super) fn update_sound(
         &mut self,
         answers: &Address<SoundAnswer>,
         scene_answers: &Address<SceneSoundAnswer>,
+        samples: &Address<SamplesAnswer>,
     ) {
         self.sound.update(&mut self.state, answers);
         self.scene_sounds.update(&mut self.state, scene_answers);
+        self.sound_player.update(&mut self.state, samples);
+    }
+
+    /// Receives the samples of a sound.
+    pub(super) fn samples_answered(&mut self, answer: SamplesAnswer) {
+        self.sound_player.receive(&mut self.state, answer);
     }
 
     /// Receives the answer of a job about a sound of a scene.

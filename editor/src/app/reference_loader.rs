@@ -1,16 +1,13 @@
 //! Reads and decodes the reference picture in jobs: first its files, then the frame at the playhead and the next ones.
 
 use super::frame_cache::FrameCache;
-use super::interface::Interface;
 use crate::panels::State;
 use crate::panels::reference::ReferenceInfo;
 use crate::panels::status::MessageSeverity;
 use dragonfly_document::{DecodedImage, ReferenceSource};
 use dragonfly_picture::ReferencePicture;
-use dragonfly_runtime::{Address, Context, Job, JobContext, Receiver};
-use std::cell::RefCell;
+use dragonfly_runtime::{Address, Job, JobContext};
 use std::path::PathBuf;
-use std::rc::Rc;
 use std::sync::Arc;
 
 /// Memory for decoded frames, bytes.
@@ -164,17 +161,4 @@ fn start(
 
 fn say(state: &mut State, error: &std::io::Error) {
     state.say(MessageSeverity::Error, format!("The reference could not be read: {error}"));
-}
-
-/// Passes the answers of the jobs on.
-pub(super) struct ReferenceAnswers(pub Rc<RefCell<Interface>>);
-
-impl Receiver for ReferenceAnswers {
-    type Message = ReferenceAnswer;
-
-    fn receive(&mut self, answer: ReferenceAnswer, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        interface.reference_answered(answer);
-        interface.redraw();
-    }
 }

@@ -2,8 +2,6 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
-use super::file_actions;
-use super::file_dialog::Answer;
 use super::interface::Interface;
 use crate::panels::dialogs::{
     ChangedQuestion, OutdatedQuestion, PlanQuestion, UnfitQuestion, UnsavedQuestion,
@@ -13,30 +11,11 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
 use dragonfly_anim::model_unit::ModelUnit;
 use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, View};
-use dragonfly_runtime::{Context, Receiver};
-use std::cell::RefCell;
-use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Receives the replies of the document.
-pub(super) struct Replies {
-    /// The window in which they are shown.
-    pub interface: Rc<RefCell<Interface>>,
-}
-
-impl Receiver for Replies {
-    type Message = DocumentReply;
-
-    fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
-        let mut interface = self.interface.borrow_mut();
-        show(&mut interface, reply);
-        interface.redraw();
-    }
-}
-
 /// Shows a reply of the document. All kinds of replies are handled here.
-fn show(interface: &mut Interface, reply: DocumentReply) {
+pub(super) fn show(interface: &mut Interface, reply: DocumentReply) {
     let state = &mut interface.state;
     match reply {
         DocumentReply::Loading { title, progress } => state.set_loading(Some(Loading { title, progress })),
@@ -169,18 +148,5 @@ fn say_passed_over(state: &mut State, files: usize) {
             MessageSeverity::Warning,
             format!("Only one model can be open: {files} further files were not opened"),
         ),
-    }
-}
-
-/// Receives what the user chose in a file dialog.
-pub(super) struct Answers(pub Rc<RefCell<Interface>>);
-
-impl Receiver for Answers {
-    type Message = Answer;
-
-    fn receive(&mut self, answer: Answer, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        file_actions::chosen(&mut interface, answer);
-        interface.redraw();
     }
 }

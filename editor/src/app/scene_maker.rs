@@ -6,11 +6,9 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction};
 use dragonfly_document::demo::DRAGONFLY_GLB;
 use dragonfly_document::{Cancel, LoadedModel, Source, Then, load_model};
-use dragonfly_runtime::{Address, Context, Job, JobContext, Receiver};
-use std::cell::RefCell;
+use dragonfly_runtime::{Address, Job, JobContext};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
 
 /// The path of the scene that was written, or the reason why there is none.
 pub type SceneAnswer = Result<PathBuf, String>;
@@ -121,20 +119,12 @@ fn scale_of(loaded: &LoadedModel) -> f64 {
 }
 
 /// Opens the scene that a job has written.
-pub(super) struct SceneMakerReceiver(pub Rc<RefCell<Interface>>);
-
-impl Receiver for SceneMakerReceiver {
-    type Message = SceneAnswer;
-
-    fn receive(&mut self, answer: SceneAnswer, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        match answer {
-            Ok(path) => {
-                let action = FileAction::Leave(Then::Open(Source::File(path)));
-                interface.effects.push(Effect::File(action));
-            }
-            Err(reason) => interface.state.say(MessageSeverity::Error, reason),
+pub(super) fn made(interface: &mut Interface, answer: SceneAnswer) {
+    match answer {
+        Ok(path) => {
+            let action = FileAction::Leave(Then::Open(Source::File(path)));
+            interface.effects.push(Effect::File(action));
         }
-        interface.redraw();
+        Err(reason) => interface.state.say(MessageSeverity::Error, reason),
     }
 }

@@ -2,9 +2,8 @@
 
 use crate::panels::State;
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_document::{Cancel, Folder, SoundPeaks};
+use dragonfly_document::{SoundPeaks, SoundSource};
 use dragonfly_runtime::{Address, Job, JobContext};
-use std::path::Path;
 use std::sync::Arc;
 
 /// Reads the sounds that the script of the open scene names.
@@ -42,10 +41,8 @@ impl SceneSoundLoader {
             return state.scene_sounds().receive(&source, Err(reason));
         };
         let (name, failed_name) = (source.clone(), source.clone());
-        let work = move |job: &JobContext<SceneSoundAnswer>| {
-            let peaks = peaks_below(&folder, &name, job.cancel_flag());
-            (opened, name, peaks)
-        };
+        let file = SoundSource::Below { folder, name: source.clone() };
+        let work = move |job: &JobContext<SceneSoundAnswer>| (opened, name, file.peaks(job.cancel_flag()));
         let failed = move |reason: &str| (opened, failed_name, Err(reason.to_owned()));
         match Job::start(to, "read sound of a scene", work, failed) {
             Ok(job) => self.reading = Some((opened, job)),
@@ -61,11 +58,4 @@ impl SceneSoundLoader {
         self.reading = None;
         state.scene_sounds().receive(&source, peaks);
     }
-}
-
-/// Reads a sound in a folder or below it.
-fn peaks_below(folder: &Path, source: &str, cancel: &Cancel) -> Result<SoundPeaks, String> {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let file = Folder::new(folder).and_then(|folder| folder.open(source));
-    SoundPeaks::read_from(file.map_err(|error| format!("{source} {error}"))?, source, cancel)
 }

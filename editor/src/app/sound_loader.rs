@@ -1,13 +1,10 @@
 //! Reads the peaks of the sound in a job.
 
-use super::interface::Interface;
 use crate::panels::State;
 use crate::panels::status::MessageSeverity;
-use dragonfly_document::SoundPeaks;
-use dragonfly_runtime::{Address, Context, Job, JobContext, Receiver};
-use std::cell::RefCell;
+use dragonfly_document::{SoundPeaks, SoundSource};
+use dragonfly_runtime::{Address, Job, JobContext};
 use std::path::PathBuf;
-use std::rc::Rc;
 
 /// Reads the sound that the settings name.
 #[derive(Debug, Default)]
@@ -35,7 +32,8 @@ impl SoundLoader {
             return;
         }
         let (number, file) = (self.number, self.asked.clone());
-        let work = move |job: &JobContext<SoundAnswer>| (number, SoundPeaks::read(&file, job.cancel_flag()));
+        let source = SoundSource::File(file);
+        let work = move |job: &JobContext<SoundAnswer>| (number, source.peaks(job.cancel_flag()));
         let failed = move |reason: &str| (number, Err(reason.to_owned()));
         match Job::start(to, "read sound", work, failed) {
             Ok(job) => self.reading = Some(job),
@@ -55,18 +53,5 @@ impl SoundLoader {
             state.say(MessageSeverity::Warning, format!("No sound: {reason}"));
         }
         state.sound().read(peaks);
-    }
-}
-
-/// Passes the answers of the jobs on.
-pub(super) struct SoundAnswers(pub Rc<RefCell<Interface>>);
-
-impl Receiver for SoundAnswers {
-    type Message = SoundAnswer;
-
-    fn receive(&mut self, answer: SoundAnswer, _main: &mut Context) {
-        let mut interface = self.0.borrow_mut();
-        interface.sound_answered(answer);
-        interface.redraw();
     }
 }

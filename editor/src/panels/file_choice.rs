@@ -1,6 +1,7 @@
 //! Files and folders that the user chooses with the system's dialog, apart from models.
 
 use dragonfly_document::formats;
+use dragonfly_sound::SOUND_FORMATS;
 
 /// The purpose of a file or folder that the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +49,10 @@ impl FileChoice {
         match self {
             Self::PoseFolder | Self::DemoScene => None,
             Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
-            Self::Sound => Some(("Sounds", vec!["wav", "flac", "ogg"])),
+            Self::Sound => Some((
+                "Sounds",
+                SOUND_FORMATS.iter().flat_map(|format| format.extensions.iter().copied()).collect(),
+            )),
             Self::RetargetSource
             | Self::NewScene
             | Self::Role

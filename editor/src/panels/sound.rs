@@ -1,13 +1,10 @@
 //! The sound of the model that is open: a file, the frame at which it starts, and its peaks once they are read. It is shown in the
-//! timeline and not played.
+//! timeline, and played where there is an audio device.
 
 use dragonfly_document::SoundPeaks;
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-
-/// File name extensions of sounds.
-const EXTENSIONS: [&str; 7] = ["wav", "wave", "flac", "ogg", "oga", "mp3", "m4a"];
 
 /// The settings of a sound, remembered for each file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -85,10 +82,4 @@ impl SoundTrack {
             Err(reason) => (self.peaks, self.problem) = (None, Some(reason)),
         }
     }
-}
-
-/// Returns whether a file is a sound by its name.
-pub(super) fn is_sound(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    EXTENSIONS.contains(&extension.as_str())
 }

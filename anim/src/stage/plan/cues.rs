@@ -51,7 +51,18 @@ impl SoundCue {
             return None;
         }
         let after = time - self.span.begin;
-        let Some(length) = self.length.filter(|&length| length > StageTime::ZERO) else { return Some(after) };
+        match self.length {
+            Some(length) => self.within(after, length),
+            None => Some(after),
+        }
+    }
+
+    /// Returns the time in a sound of this length that has played for `after`: where it repeats, it starts again at its end. `None` once it is
+    /// over. For plans that do not know how long their sounds are.
+    pub fn within(&self, after: StageTime, length: StageTime) -> Option<StageTime> {
+        if length <= StageTime::ZERO {
+            return Some(after);
+        }
         let is_over = match self.repeat {
             StageRepeat::Times(times) => after >= length.times(times),
             StageRepeat::Fill => false,

@@ -2,10 +2,12 @@
 
 use super::{OutputError, OutputVoice};
 use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
-use cpal::{FromSample, SampleFormat, SizedSample, StreamConfig};
+use cpal::{BufferSize, FromSample, SampleFormat, SizedSample, StreamConfig, SupportedBufferSize};
 use flume::Sender;
 use std::time::Instant;
 
+/// Frames that the device asks for at once, where it can: 21 ms at 48 kHz.
+const BUFFER: u32 = 1024;
 /// Frames that are computed at once.
 const FRAMES: usize = 1024;
 
@@ -21,7 +23,14 @@ impl OpenDevice {
             .default_output_device()
             .ok_or_else(|| OutputError::Device("there is no audio device".to_owned()))?;
         let supported = device.default_output_config().map_err(failed)?;
-        let (format, config) = (supported.sample_format(), StreamConfig::from(supported));
+        let (format, size) = (supported.sample_format(), *supported.buffer_size());
+        let mut config = StreamConfig::from(supported);
+        // Devices may have buffers of seconds, and what is heard would follow the playhead that late.
+        if let SupportedBufferSize::Range { min, max } = size
+            && min <= max
+        {
+            config.buffer_size = BufferSize::Fixed(BUFFER.clamp(min, max));
+        }
         let stream = match format {
             SampleFormat::F32 => stream::<f32>(&device, config, voice, fail),
             SampleFormat::I16 => stream::<i16>(&device, config, voice, fail),

@@ -29,7 +29,7 @@ pub struct SoundOutput {
     used: Receiver<OutputCommand>,
     failures: Receiver<String>,
     #[cfg(feature = "audio")]
-    _device: device::OpenDevice,
+    _device: Option<device::OpenDevice>,
 }
 
 impl std::fmt::Debug for SoundOutput {
@@ -45,20 +45,34 @@ impl SoundOutput {
     ///
     /// There is no device, or the program has no sound output.
     pub fn open() -> Result<Self, OutputError> {
-        let (commands, waiting) = flume::bounded(WAITING);
-        let (freed, used) = flume::bounded(WAITING);
-        let (fail, failures) = flume::bounded::<String>(1);
-        let voice = OutputVoice::new(waiting, freed);
         #[cfg(feature = "audio")]
         {
+            let (output, voice, fail) = Self::connected();
             let device = device::OpenDevice::open(voice, fail)?;
-            Ok(Self { commands, used, failures, _device: device })
+            Ok(Self { _device: Some(device), ..output })
         }
         #[cfg(not(feature = "audio"))]
-        {
-            drop((voice, fail, commands, used, failures));
-            Err(OutputError::NotBuilt)
-        }
+        Err(OutputError::NotBuilt)
+    }
+
+    /// Returns an output without a device, and the voice that the caller asks for samples instead.
+    pub fn without_device() -> (Self, OutputVoice) {
+        let (output, voice, _) = Self::connected();
+        (output, voice)
+    }
+
+    fn connected() -> (Self, OutputVoice, Sender<String>) {
+        let (commands, waiting) = flume::bounded(WAITING);
+        let (freed, used) = flume::bounded(WAITING);
+        let (fail, failures) = flume::bounded(1);
+        let output = Self {
+            commands,
+            used,
+            failures,
+            #[cfg(feature = "audio")]
+            _device: None,
+        };
+        (output, OutputVoice::new(waiting, freed), fail)
     }
 
     /// Sends a command. Returns the reason where the device no longer works; it is never asked twice.

@@ -66,9 +66,16 @@ impl OutputVoice {
         }
         // In parts, so that a jump of the clock is heard where it is.
         for part in frames.chunks_mut(256) {
-            let length = Duration::from_secs_f64(part.len() as f64 / f64::from(rate.max(1)));
-            mix.add((clock.time_at)(self.filled), clock.speed / f64::from(rate.max(1)), part);
-            self.filled += length;
+            let seconds = part.len() as f64 / f64::from(rate.max(1));
+            let after = self.filled + Duration::from_secs_f64(seconds);
+            let [from, to] = [self.filled, after].map(&clock.time_at);
+            // A clock that goes back and forth changes its direction; one that starts again jumps.
+            let is_jump = (to - from).abs() > 1.5 * seconds * clock.speed.abs();
+            let way = if is_jump { seconds * clock.speed } else { to - from };
+            if way != 0.0 {
+                mix.add(from, way / part.len() as f64, part);
+            }
+            self.filled = after;
         }
         for side in frames.as_flattened_mut() {
             *side = side.clamp(-1.0, 1.0);

@@ -4,11 +4,11 @@ use super::scene_text::add_all;
 use super::{execute, scene, scene_ground};
 use crate::panels::request::{Effect, Request};
 use crate::panels::scene::NewThing;
-use crate::panels::sound::is_sound;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::line::points_text;
 use dragonfly_document::{Source, formats, is_scene};
+use dragonfly_sound::is_sound_file;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +32,7 @@ fn dropped_on_scene(workspace: &mut Workspace, mut files: Vec<PathBuf>) -> Optio
         return open(workspace, files);
     }
     let (models, others): (Vec<_>, Vec<_>) = files.into_iter().partition(|file| is_model(file));
-    let (sounds, others): (Vec<_>, Vec<_>) = others.into_iter().partition(|file| is_sound(file));
+    let (sounds, others): (Vec<_>, Vec<_>) = others.into_iter().partition(|file| is_sound_file(file));
     if models.is_empty() && sounds.is_empty() {
         return open(workspace, others);
     }

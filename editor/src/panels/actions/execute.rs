@@ -13,12 +13,13 @@ use crate::panels::reference::settings::ReferenceSettings;
 use crate::panels::request::{Effect, FileAction, Request};
 use crate::panels::scene::NewThing;
 use crate::panels::settings::IkSettings;
-use crate::panels::sound::{SoundSettings, is_sound};
+use crate::panels::sound::SoundSettings;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
 use dragonfly_document::{Change, ClipOrder, DocumentMessage, Source, Then};
 use dragonfly_picture::between;
+use dragonfly_sound::is_sound_file;
 
 /// Executes a request of a panel.
 pub(in crate::panels) fn execute(workspace: &mut Workspace, request: Request) -> Option<Effect> {
@@ -77,10 +78,10 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Shields(shields) => framing::set_shields(workspace, shields),
         Request::Wheel(by) => return framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),
-        Request::Open(Source::File(file)) if workspace.read().scene().is_some() && is_sound(&file) => {
+        Request::Open(Source::File(file)) if workspace.read().scene().is_some() && is_sound_file(&file) => {
             return dropped::dropped(workspace, vec![file]);
         }
-        Request::Open(Source::File(file)) if workspace.model.view().is_some() && is_sound(&file) => {
+        Request::Open(Source::File(file)) if workspace.model.view().is_some() && is_sound_file(&file) => {
             workspace.sound.set(SoundSettings { file, ..SoundSettings::default() });
         }
         Request::Open(source) => return Some(Effect::File(FileAction::Leave(Then::Open(source)))),

@@ -82,11 +82,6 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
         };
         return workspace.say(MessageSeverity::Info, text);
     }
-    let plan = workspace.read().scene().and_then(|scene| scene.plan.clone());
-    if plan.is_some_and(|plan| !plan.sounds().is_empty()) && workspace.scene.sounds_mut().note_silence() {
-        let text = "The sounds of the scene are shown and not played: this program has no sound output";
-        workspace.say(MessageSeverity::Info, text);
-    }
     workspace.player.play(bounds, speed);
 }
 

@@ -22,8 +22,6 @@ pub struct SceneSounds {
     sounds: BTreeMap<Box<str>, SceneSound>,
     /// Grows when another document is opened.
     opened: u64,
-    /// Whether a message has explained that they are not played.
-    is_silence_known: bool,
 }
 
 impl SceneSounds {
@@ -67,13 +65,8 @@ impl SceneSounds {
         self.sounds.insert(source.into(), sound);
     }
 
-    /// Notes that a message explains that sounds are not played. Returns true once for each document.
-    pub(in crate::panels) fn note_silence(&mut self) -> bool {
-        !std::mem::replace(&mut self.is_silence_known, true)
-    }
-
     /// Returns sounds of which nothing is known, for another document.
     pub(super) fn cleared(&self) -> Self {
-        Self { sounds: BTreeMap::new(), opened: self.opened + 1, is_silence_known: false }
+        Self { sounds: BTreeMap::new(), opened: self.opened + 1 }
     }
 }
