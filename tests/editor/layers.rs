@@ -1,11 +1,13 @@
 //! The layers of a take in the window: a new layer is active, poses become its keys, and the panels show these keys.
 
 use crate::timeline_rig::Animator;
-use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::{FileAction, Request};
+use dragonfly_anim::retarget::FigureOptions;
 use dragonfly_anim::sample::sample_channel;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, LayerKind, TakeRef};
+use dragonfly_document::edit::{AddLayer, BonePose, BoneRef, Edit, LayerKind, TakeRef};
+use dragonfly_document::{DocumentMessage, RetargetOrder};
 use dragonfly_kit::document::fixture;
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
@@ -235,4 +237,59 @@ fn undo_of_a_merge_into_the_take_makes_the_layer_active_again() {
     assert_eq!(animator.harness.state().state.read().layer(), Some(0), "the next pose belongs to the layer");
     animator.request(Request::Command(Id::Redo));
     assert_eq!(animator.harness.state().state.read().layer(), None);
+}
+
+#[test]
+fn a_layer_from_a_take_is_active_and_a_second_one_has_another_name() {
+    let mut animator = Animator::new(fixture::full());
+    let name = animator.edited.adapter().slots()[1].result.name.to_string();
+    let names =
+        |animator: &Animator| -> Vec<String> { layers(animator).into_iter().map(|(name, _)| name).collect() };
+    animator.request(Request::AddLayerFrom(1));
+    let panels = animator.harness.state().state.read();
+    assert_eq!((names(&animator), panels.layer()), (vec![name.clone()], Some(0)));
+    animator.request(Request::AddLayerFrom(1));
+    let panels = animator.harness.state().state.read();
+    assert_eq!((names(&animator), panels.layer()), (vec![name.clone(), format!("{name} 2")], Some(1)));
+    animator.request(Request::AddLayerFrom(99));
+    assert_eq!(layers(&animator).len(), 2, "there is no such take");
+}
+
+#[test]
+fn a_layer_of_another_model_is_active_when_it_comes() {
+    let mut animator = animator();
+    animator.request(Request::ChooseLayer(None));
+    let panels = animator.harness.state().state.read();
+    let layer_of = panels.shown_take_ref();
+    let over = layer_of.clone().expect("a take");
+    let (pairs, options) = (Vec::new(), FigureOptions::default());
+    let order = RetargetOrder { take: 0, layer_of, pairs, options };
+    animator.request(Request::Answer(FileAction::Send(DocumentMessage::Retarget(order))));
+    // What the document adds when the take was computed.
+    let layer = Edit::AddLayer(AddLayer::new(over, "Walk".to_owned(), LayerKind::Override));
+    animator.request(Request::Change(dragonfly_document::Change::Edit(layer, None)));
+    assert_eq!(animator.harness.state().state.read().layer(), Some(1));
+    assert_eq!(layers(&animator)[1].0, "Walk");
+}
+
+#[test]
+fn what_is_typed_replaces_the_name_of_a_layer_and_escape_gives_it_up() {
+    let mut animator = animator();
+    for (end, expected) in [(egui::Key::Escape, "Layer"), (egui::Key::Enter, "Breath")] {
+        let row = animator.harness.get_by_label("Layer").rect();
+        animator.harness.event(egui::Event::PointerMoved(row.left_top() + egui::vec2(30.0, 8.0)));
+        for pressed in [true, false, true, false] {
+            let (pos, button) = (row.left_top() + egui::vec2(30.0, 8.0), egui::PointerButton::Primary);
+            let modifiers = egui::Modifiers::NONE;
+            animator.harness.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+        }
+        animator.steps(4);
+        assert!(animator.harness.query_by_label("Name of the layer").is_some());
+        animator.harness.event(egui::Event::Text("Breath".to_owned()));
+        animator.steps(2);
+        animator.harness.key_press(end);
+        animator.steps(3);
+        assert!(animator.harness.query_by_label("Name of the layer").is_none());
+        assert_eq!(layers(&animator)[0].0, expected);
+    }
 }

@@ -90,6 +90,7 @@ mod scene_documents;
 mod scene_drop;
 mod scene_examples;
 mod scene_ground;
+mod scene_keys;
 mod scene_left;
 mod scene_lines;
 mod scene_outliner;

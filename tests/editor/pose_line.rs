@@ -103,6 +103,11 @@ fn a_locked_bone_of_the_chain_stays_and_the_others_follow_the_stroke() {
     let shown = window.state().steps().0;
     assert!(pending > 0 || shown > 0, "{}", said(&window));
     assert_eq!(poses(&window)[1].rotation, before[1].rotation);
+    // The chain stood upright; the line goes to the right.
+    for joint in &joints(&window)[2..] {
+        let away = (joint.as_dvec3() - start).with_x(0.0).length();
+        assert!(away < 0.04 && joint.x as f64 - start.x > 0.3, "{joint} is {away} m from the line");
+    }
 }
 
 #[test]

@@ -85,14 +85,18 @@ fn turns_of_the_wheel_are_one_step_until_there_is_a_pause() {
     let ended = frame(bench, at(900), Vec::new());
     assert!(matches!(ended[..], [(_, Change::Release(_))]), "{ended:?}");
     answer(bench, ended);
+    let first = text(&window);
+    let bench = window.state_mut();
     let sent = frame(bench, at(1000), vec![Request::Wheel(12.0)]);
     answer(bench, sent);
     assert_eq!(bench.steps(), (2, 2));
+    assert_ne!(text(&window), first);
     let line = new_lines(FOXES, &text(&window));
     assert_eq!(line.len(), 1, "{line:?}");
     assert!(line[0].contains("id=\"wide\"") && !line[0].contains("at=\"0 1 5\""), "{line:?}");
     // Something else ends the step and keeps it.
     window.state_mut().change(Change::Undo);
+    assert_eq!(text(&window), first, "the second step was kept, so that it is undone alone");
     window.state_mut().change(Change::Undo);
     assert_eq!(text(&window), FOXES);
 }

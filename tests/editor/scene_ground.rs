@@ -125,7 +125,9 @@ fn only_props_that_are_moved_are_posed_to_find_the_ground() {
     let mut needed = |id: &str| {
         select(&mut window, &[id]);
         let (count, effect) = count(|| window.state_mut().state.execute(Request::Command(Id::DropToGround)));
-        assert!(matches!(effect, Some(Effect::Change(_))), "{effect:?}");
+        let Some(Effect::Change(change)) = effect else { panic!("{effect:?}") };
+        window.state_mut().change(change);
+        window.run_steps(2);
         count.bytes
     };
     let [role, prop] = [needed("ben"), needed("toy")];

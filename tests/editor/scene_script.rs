@@ -1,13 +1,16 @@
 //! The script panel: what is typed, the steps it makes, what follows it.
 
 use crate::scene_bench::{FOXES, new_lines, scene, text};
-use crate::workbench::Window;
-use dragonfly::panels::Request;
+use crate::workbench::{Window, Workbench};
 use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::scene::script::ScriptPanel;
+use dragonfly::panels::{Panel, Request};
 use dragonfly_document::Change;
+use dragonfly_kit::counting::count;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Event, Key, Modifiers};
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
 /// Puts the cursor of the script at a byte of its text.
@@ -151,4 +154,17 @@ fn a_megabyte_of_text_is_edited_without_laying_it_out_again_when_nothing_changes
     put_cursor(&mut window, place(&large, "Two foxes"));
     type_text(&mut window, "s");
     assert!(text(&window).contains("Two foxess meet"));
+}
+
+#[test]
+fn a_frame_in_which_nothing_is_typed_copies_no_text() {
+    let long = "    <!-- a comment of the script that makes it long -->\n".repeat(5_000);
+    let text = FOXES.replace("  <cast>", &format!("{long}  <cast>"));
+    let draw = |ui: &mut egui::Ui, (panel, bench): &mut (ScriptPanel, Workbench)| {
+        panel.show(ui, &bench.state.read(), &mut Vec::new());
+    };
+    let mut harness = Harness::new_ui_state(draw, (ScriptPanel::default(), scene(&text)));
+    harness.run_steps(4);
+    let (count, ()) = count(|| harness.run_steps(1));
+    assert!(count.bytes < text.len() as u64, "{count:?} for a text of {} bytes", text.len());
 }

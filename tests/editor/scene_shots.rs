@@ -19,8 +19,6 @@ fn said(window: &Window) -> String {
 #[test]
 fn a_click_on_a_shot_goes_to_its_start_and_selects_it() {
     let mut window = scene(FOXES).window();
-    let lanes = window.state().state.read().scene_editing.lines().looks().len();
-    assert_eq!(lanes, 1);
     // The second camera is seen from the end of the first take on, which is cut at 2 s, to the end of the scene.
     let end = window.state().state.read().scene_bounds().expect("a scene").1;
     let last = format!("Shot 2, close, from 2.00 s, {:.2} s", end - 2.0);
@@ -74,4 +72,28 @@ fn the_shot_at_a_time_is_the_last_one_that_has_begun() {
     let shots = shots_of(read.scene_editing.lanes());
     let at = |seconds: f64| shot_at(shots, StageTime::from_seconds(seconds));
     assert_eq!([at(-1.0), at(0.0), at(1.99), at(2.0), at(99.0)], [None, Some(0), Some(0), Some(1), Some(1)]);
+}
+
+#[test]
+fn of_many_shots_only_those_in_sight_are_drawn_and_all_can_be_scrolled_to() {
+    let more: String =
+        (0..500).map(|at| format!("    <shot who=\"wide\" begin=\"{}\"/>\n", 10 + at)).collect();
+    let mut window = scene(&FOXES.replace("    <seq>", &format!("{more}    <seq>"))).window();
+    let drawn = |window: &Window| window.query_all_by_label_contains(", from ").count();
+    assert!(drawn(&window) < 60, "{} rows", drawn(&window));
+    let at = window.get_by_label_contains("Shot 1, ").rect().center();
+    window.event(egui::Event::PointerMoved(at));
+    window.run_steps(1);
+    for _ in 0..3 {
+        window.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            delta: egui::vec2(0.0, -100_000.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers: egui::Modifiers::NONE,
+        });
+        window.run_steps(20);
+    }
+    assert!(window.query_by_label_contains("Shot 502, ").is_some(), "the last one");
+    assert!(window.query_by_label_contains("Shot 1, ").is_none() && drawn(&window) < 60);
 }

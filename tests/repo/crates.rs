@@ -9,6 +9,7 @@ const WALLS: &[(&str, &[&str])] = &[
     ("dragonfly-runtime", &["dragonfly-anim", "glam", "egui", "winit", "wgpu"]),
     ("dragonfly-anim", &["dragonfly-runtime", "dragonfly-store", "egui", "winit", "wgpu"]),
     ("dragonfly-store", &["dragonfly-anim", "dragonfly-runtime", "glam", "egui", "winit", "wgpu"]),
+    ("dragonfly-sound", &["dragonfly-document", "dragonfly-picture", "egui", "winit", "wgpu", "cpal"]),
     ("dragonfly-fbx", &["dragonfly-document", "dragonfly-picture", "egui", "winit", "wgpu"]),
     ("dragonfly-document", &["dragonfly-picture", "egui", "winit", "wgpu"]),
     ("dragonfly-picture", &["dragonfly", "winit", "egui-winit", "egui_tiles"]),

@@ -54,6 +54,7 @@ pub mod menu;
 mod mirror_pairs;
 mod model_size;
 pub mod motion_path;
+mod name_field;
 pub mod number_field;
 pub mod number_slider;
 pub mod number_text;

@@ -132,6 +132,8 @@ pub enum Request {
     Scene(SceneRequest),
     /// Files were dropped onto the window.
     Dropped(Vec<PathBuf>),
+    /// Adds a layer with the keys of the take with this index over the take that is shown.
+    AddLayerFrom(usize),
     /// Adds this model to the scene as a role.
     AddRole(PathBuf),
     /// Adds this model to the scene as a prop.

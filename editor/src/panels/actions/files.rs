@@ -35,6 +35,10 @@ pub(in crate::panels) fn ask_to_recover(workspace: &mut Workspace, offers: Vec<O
 /// Removes the question that was answered, and returns the effect of the answer.
 pub(super) fn answered(workspace: &mut Workspace, action: FileAction) -> Option<Effect> {
     let finds = matches!(workspace.prompts.question(), Some(Question::Recover(_) | Question::Find(_)));
+    // A layer of another model is the active one, as others that are added.
+    if matches!(&action, FileAction::Send(DocumentMessage::Retarget(order)) if order.layer_of.is_some()) {
+        workspace.layers.choose_next_new();
+    }
     match &action {
         FileAction::Send(DocumentMessage::Decide(offer, Decision::Discard | Decision::Later)) => {
             workspace.prompts.decided(offer);

@@ -32,6 +32,16 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
     Some(edit(Edit::AddLayer(AddLayer { at, copy, ..AddLayer::new(take, name, kind) })))
 }
 
+/// Adds a layer of poses with the keys of another take above the active one and makes it active.
+pub(super) fn add_from(workspace: &mut Workspace, take: usize) -> Option<Effect> {
+    let panels = workspace.read();
+    let (over, at) = (panels.shown_take_ref()?, panels.layer().map(|layer| layer + 1));
+    let name = unused_name(workspace, &panels.digest.takes.get(take)?.name, 1);
+    workspace.layers.choose_next_new();
+    let keys_of = Some(TakeRef::Index(take));
+    Some(edit(Edit::AddLayer(AddLayer { at, keys_of, ..AddLayer::new(over, name, LayerKind::Override) })))
+}
+
 /// Deletes the active layer.
 pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
     let take = active(workspace)?;

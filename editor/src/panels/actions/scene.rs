@@ -11,26 +11,13 @@ use dragonfly_document::DocumentMessage;
 use dragonfly_document::bones::Choice;
 use std::path::{Component, Path};
 
-/// Commands for models and the ones with the same meaning, and the same keys, while a scene is open.
-const COUNTERPARTS: &[(Id, Id)] = &[
-    (Id::DeleteKeys, Id::SceneDelete),
-    (Id::DuplicateKeys, Id::SceneDuplicate),
-    (Id::RenameTake, Id::SceneRename),
-    (Id::KeysEarlier, Id::ClipEarlier),
-    (Id::KeysLater, Id::ClipLater),
-    (Id::FitKeys, Id::FitScene),
-    (Id::SplitTake, Id::CutHere),
-    (Id::RestPose, Id::LookThroughShot),
-];
-
 /// Returns the command that is run in place of another one: those of scenes while a scene is open, and the pose line in place of lines of a project
 /// while a model is.
 pub(in crate::panels) fn counterpart(workspace: &Workspace, command: &'static Command) -> &'static Command {
     if workspace.read().scene().is_none() {
         return if command.id == Id::ToolLine { commands::get(Id::PoseLine) } else { command };
     }
-    let other = COUNTERPARTS.iter().find(|(own, _)| *own == command.id).map(|(_, other)| *other);
-    other.map_or(command, commands::get)
+    commands::counterpart::in_scenes(command.id).map_or(command, commands::get)
 }
 
 /// Executes a request about the scene.

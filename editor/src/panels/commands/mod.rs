@@ -2,6 +2,7 @@
 
 mod category;
 mod command;
+pub(in crate::panels) mod counterpart;
 pub(super) mod id;
 pub(super) mod key_settings;
 mod keymap;
@@ -120,10 +121,13 @@ pub fn title(panels: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
     label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
 }
 
-/// Returns the first shortcut as text, `Ctrl+O`, or the first one over the timeline and the curves; empty when there is
-/// none.
+/// Returns the first shortcut as text, `Ctrl+O`, or the first one over the timeline and the curves, or that of the command for models
+/// whose keys a command of scenes has; empty when there is none.
 pub fn shortcut_text(context: &egui::Context, id: Id) -> String {
-    Keymap::of(context).first_shortcut(id).map(text).unwrap_or_default()
+    let keymap = Keymap::of(context);
+    let own = keymap.first_shortcut(id);
+    let found = own.or_else(|| counterpart::for_models(id).find_map(|other| keymap.first_shortcut(other)));
+    found.map(text).unwrap_or_default()
 }
 
 /// Returns the tooltip: title and shortcut, then the help.

@@ -4,29 +4,21 @@ use super::lane_drag::MarkDrag;
 use super::sheet::Sheet;
 use crate::panels::context::PanelContext;
 use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
+use crate::panels::name_field::{NameField, NameFieldEnd};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_picture::between;
 use egui::{
-    Button, CornerRadius, CursorIcon, PointerButton, Rect, Sense, Shape, Stroke, TextEdit, TextStyle, Ui,
-    WidgetInfo, pos2, vec2,
+    Button, CornerRadius, CursorIcon, PointerButton, Rect, Sense, Shape, Stroke, TextStyle, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 /// The marker that is dragged or renamed.
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
-    renaming: Option<(usize, String, MarkerNameStage)>,
+    renaming: Option<(usize, NameField)>,
     drag: MarkDrag,
-}
-
-/// State of the field for a name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum MarkerNameStage {
-    Fresh,
-    /// The focus is requested for the field.
-    Asked,
-    Typing,
 }
 
 impl MarkerLane {
@@ -83,14 +75,14 @@ impl MarkerLane {
                 seek = Some(marker.time);
             }
             if response.double_clicked() {
-                self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
+                self.renaming = Some((index, NameField::of(&marker.name)));
             }
             if let Some(time) = self.drag.step_mark(ui, sheet, (index, marker.time), &response) {
                 ask(MarkerAction::Move(index, time));
             }
             response.context_menu(|ui| {
                 if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {
-                    self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
+                    self.renaming = Some((index, NameField::of(&marker.name)));
                     ui.close();
                 }
                 if ui.add(Button::new("Delete marker").frame_when_inactive(false)).clicked() {
@@ -115,34 +107,19 @@ impl MarkerLane {
         scale: &TimeScale,
         context: &PanelContext<'_>,
     ) -> Option<MarkerAction> {
-        let (index, name, stage) = self.renaming.as_mut()?;
+        let (index, field) = self.renaming.as_mut()?;
         let Some(marker) = context.markers().get(*index) else {
             self.renaming = None;
             return None;
         };
         let left = between(scale.x_of(marker.time), lane.left(), lane.right() - 120.0);
         let rect = Rect::from_min_size(pos2(left, lane.top() - 3.0), vec2(120.0, lane.height() + 6.0));
-        let id = egui::Id::unique("name of a marker");
-        if *stage == MarkerNameStage::Asked && ui.memory(|memory| memory.has_focus(id)) {
-            *stage = MarkerNameStage::Typing;
-            // All text is selected, so that typing replaces the old name.
-            widgets::select_all(ui.ctx(), id, name);
-        }
-        let field = TextEdit::singleline(name).id(id).font(TextStyle::Small).hint_text("Name");
-        let response = ui.put(rect, field);
-        response.widget_info(|| {
-            WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name of the marker")
-        });
-        if *stage == MarkerNameStage::Fresh {
-            *stage = MarkerNameStage::Asked;
-            response.request_focus();
+        let end = field.show(ui, rect, "Name of the marker", TextStyle::Small);
+        if end == NameFieldEnd::Open {
             return None;
         }
-        if !response.lost_focus() {
-            return None;
-        }
-        let (index, name, _) = self.renaming.take()?;
-        let kept = !ui.input(|input| input.key_down(egui::Key::Escape));
-        kept.then_some(MarkerAction::Rename(index, name))
+        let (index, field) = self.renaming.take()?;
+        let action = MarkerAction::Rename(index, field.text().to_owned());
+        (end != NameFieldEnd::GivenUp).then_some(action)
     }
 }

@@ -6,21 +6,22 @@ use super::actions::layers::unchanged;
 use super::commands::Id;
 use super::context::PanelContext;
 use super::icons::Icon;
+use super::name_field::NameField;
 use super::request::Request;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, PanelPlace, command_button, commands, menu, widgets};
 use dragonfly_document::Change;
 use dragonfly_document::adapter::TakeId;
-use dragonfly_document::edit::{AddLayer, Edit, LAYER_COLORS, LayerKind, MoveLayer, SetLayer, TakeRef};
+use dragonfly_document::edit::{Edit, LAYER_COLORS, MoveLayer, SetLayer, TakeRef};
 use egui::{Button, Color32, Frame, Margin, Popup, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2};
 use row::LayerRow;
 
 /// The list of layers.
 #[derive(Debug, Default)]
 pub struct Layers {
-    /// The layer whose name is being typed, and the text so far.
-    renaming: Option<(TakeId, String)>,
+    /// The layer whose name is being typed.
+    renaming: Option<(TakeId, NameField)>,
 }
 
 /// Commands for the active layer, in the order of the context menu.
@@ -116,14 +117,8 @@ fn from_take(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request
         for (index, other) in context.digest.takes.iter().enumerate() {
             let is_other = context.playback.take != Some(index);
             let button = Button::new(widgets::shortened(&other.name)).frame_when_inactive(false);
-            if ui.add_enabled(is_other, button).clicked()
-                && let Some(take) = context.shown_take_ref()
-            {
-                let edit = Edit::AddLayer(AddLayer {
-                    keys_of: Some(TakeRef::Index(index)),
-                    ..AddLayer::new(take, other.name.to_string(), LayerKind::Override)
-                });
-                requests.push(Request::Change(Change::Edit(edit, None)));
+            if ui.add_enabled(is_other, button).clicked() {
+                requests.push(Request::AddLayerFrom(index));
                 ui.close();
             }
         }

@@ -5,6 +5,7 @@ use crate::control::expression::Quantity;
 use crate::panels::actions::layers::unchanged;
 use crate::panels::context::PanelContext;
 use crate::panels::keys::{KeyDragOp, KeysRequest};
+use crate::panels::name_field::{INDENT, NameField, NameFieldEnd};
 use crate::panels::number_field::{FieldEvent, NumberField};
 use crate::panels::number_slider::{NumberSlider, SliderScale};
 use crate::panels::number_text::Digits;
@@ -18,8 +19,7 @@ use dragonfly_document::adapter::TakeId;
 use dragonfly_document::edit::{Edit, KeyLayerWeight, SetLayer, TakeRef};
 use egui::accesskit::Role;
 use egui::{
-    Align2, Color32, CornerRadius, FontId, Frame, Id, Key, Rect, Response, Sense, TextEdit, TextStyle, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, Color32, CornerRadius, FontId, Id, Rect, Response, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
 /// Width of the buttons for mute and solo, points.
@@ -88,7 +88,7 @@ impl<'a> LayerRow<'a> {
             requests.push(Request::ChooseLayer(Some(self.id)));
         }
         if response.double_clicked() {
-            panel.renaming = Some((self.id, name.clone()));
+            panel.renaming = Some((self.id, NameField::of(name)));
         }
         response.on_hover_text(self.about(context))
     }
@@ -123,20 +123,23 @@ impl<'a> LayerRow<'a> {
             pos2(line.left() + 18.0, line.top()),
             pos2(line.right() - 2.0 * SWITCH - 14.0, line.bottom()),
         );
-        if let Some((_, text)) = panel.renaming.as_mut().filter(|(id, _)| *id == self.id) {
-            let id = Id::unique("name of a layer");
-            let field = TextEdit::singleline(text).id(id).frame(Frame::NONE).desired_width(place.width());
-            let response = ui.place(place, field).accessible_name("Name of the layer");
-            let escape = ui.input(|input| input.key_pressed(Key::Escape));
-            if response.lost_focus() || escape {
-                let text = std::mem::take(text);
-                panel.renaming = None;
-                if !escape && text != self.settings.name && !text.trim().is_empty() {
-                    self.set(context, requests, |take| SetLayer { name: Some(text), ..unchanged(take) });
+        if let Some((_, field)) = panel.renaming.as_mut().filter(|(id, _)| *id == self.id) {
+            let rect = Rect::from_min_max(
+                pos2(place.left() - INDENT, place.top() + 1.0),
+                pos2(place.right(), place.bottom() - 1.0),
+            );
+            let end = field.show(ui, rect, "Name of the layer", TextStyle::Body);
+            let name =
+                Some(field.text()).filter(|name| *name != self.settings.name && !name.trim().is_empty());
+            let name = name.map(str::to_owned);
+            match end {
+                NameFieldEnd::Open => return,
+                NameFieldEnd::Entered | NameFieldEnd::Left if name.is_some() => {
+                    self.set(context, requests, |take| SetLayer { name, ..unchanged(take) });
                 }
-            } else {
-                response.request_focus();
+                NameFieldEnd::Entered | NameFieldEnd::Left | NameFieldEnd::GivenUp => {}
             }
+            panel.renaming = None;
             return;
         }
         let color = match () {

@@ -7,7 +7,7 @@ use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::panel::PanelSubject;
 use crate::panels::request::Request;
-use crate::panels::style::GRID;
+use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::{Panel, PanelPlace, widgets};
 use dragonfly_anim::stage::lanes::{LaneSubject, SceneBar, SceneLanes};
@@ -60,8 +60,8 @@ impl Panel for ShotsPanel {
         }
         let now = shot_at(shots, context.scene_time());
         ui.spacing_mut().item_spacing.y = 0.0;
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            for (index, shot) in shots.iter().enumerate() {
+        ScrollArea::vertical().auto_shrink(false).show_rows(ui, ROW, shots.len(), |ui, seen| {
+            for (index, shot) in shots.iter().enumerate().take(seen.end).skip(seen.start) {
                 let end = shots.get(index + 1).map_or(shot.end.max(shot.begin), |next| next.begin);
                 row(ui, context, (index, shot, end), now == Some(index), requests);
             }
@@ -115,12 +115,14 @@ fn row(
     if response.double_clicked() {
         requests.push(Request::Scene(SceneRequest::Through(ThroughCamera::Shot)));
     }
-    let blend = match shot.fade_in {
-        blend if blend > StageTime::ZERO => format!("\nBlends for {:.2} s", blend.seconds()),
-        _ => String::new(),
-    };
-    response.on_hover_text(format!(
-        "{} from {begin} for {length}{blend}\nClick: go there; double-click: look through the camera",
-        shot.label
-    ));
+    response.on_hover_ui(|ui| {
+        let blend = match shot.fade_in {
+            blend if blend > StageTime::ZERO => format!("\nBlends for {:.2} s", blend.seconds()),
+            _ => String::new(),
+        };
+        ui.label(format!(
+            "{} from {begin} for {length}{blend}\nClick: go there; double-click: look through the camera",
+            shot.label
+        ));
+    });
 }

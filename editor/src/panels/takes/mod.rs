@@ -7,6 +7,7 @@ use super::commands::Id;
 use super::context::PanelContext;
 use super::drag::{DragEvent, PanelDrag, PointerInput};
 use super::icons::Icon;
+use super::name_field::NameField;
 use super::request::Request;
 use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
@@ -19,7 +20,6 @@ use egui::{
     Color32, CornerRadius, CursorIcon, PointerButton, Rect, Response, ScrollArea, Sense, Stroke, TextStyle,
     Ui, WidgetInfo, pos2, vec2,
 };
-use rename::Rename;
 use time::TimeSheet;
 
 /// The list of takes.
@@ -28,7 +28,7 @@ pub struct Takes {
     times: TimeSheet,
     /// The last request to edit start and length that was answered.
     times_shown: u64,
-    rename: Option<(dragonfly_document::adapter::TakeId, Rename)>,
+    rename: Option<(dragonfly_document::adapter::TakeId, NameField)>,
     /// Number of bytes that all names begin with and that are not shown: some programs write the name of the skeleton
     /// before each.
     prefix: usize,
@@ -221,11 +221,12 @@ impl Takes {
         let Some(id) = context.takes.renaming() else { return };
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
         if self.rename.as_ref().is_none_or(|(of, _)| *of != id) {
-            self.rename = Some((id, Rename::default()));
+            let name = context.digest.takes.get(index).map_or("", |take| &take.name);
+            self.rename = Some((id, NameField::of(name)));
             ui.scroll_to_rect(rect, None);
         }
-        let Some((_, rename)) = &mut self.rename else { return };
-        if !rename.show(ui, rect.shrink2(vec2(GRID, 1.0)), context, index, requests) {
+        let Some((_, field)) = &mut self.rename else { return };
+        if !rename::show(field, ui, rect.shrink2(vec2(GRID, 1.0)), (context, index), requests) {
             self.rename = None;
             requests.push(Request::RenameTake(None));
         }

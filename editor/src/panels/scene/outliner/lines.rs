@@ -1,9 +1,10 @@
 //! The list of the drawn lines of a project: selected, renamed, colored, hidden, deleted.
 
-use super::name_field::{FieldEnd, typed_name};
+use super::rename;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::menu::submenu;
+use crate::panels::name_field::{NameField, NameFieldEnd};
 use crate::panels::request::Request;
 use crate::panels::scene::{LineRequest, SceneRequest, line_name};
 use crate::panels::style::{GRID, ROW};
@@ -27,7 +28,7 @@ const COLORS: [(&str, &str); 6] = [
 #[derive(Debug, Default)]
 pub(super) struct LineRows {
     /// The line whose name is typed, and the new name.
-    typed: Option<(Box<str>, String)>,
+    typed: Option<(Box<str>, NameField)>,
 }
 
 impl LineRows {
@@ -44,20 +45,21 @@ impl LineRows {
         });
         for (index, line) in lines.list().iter().enumerate() {
             let name = line_name(index, line);
-            match &mut self.typed {
-                Some((of, text)) if *of == name => match typed_name(ui, "Name of the line", text) {
-                    FieldEnd::Open => {}
-                    FieldEnd::Kept => {
-                        let new = text.trim().to_owned();
-                        if !new.is_empty() && *new != *name {
-                            send(requests, LineRequest::Set(name, "id", Some(new)));
-                        }
-                        self.typed = None;
-                    }
-                    FieldEnd::GivenUp => self.typed = None,
-                },
-                _ => self.row(ui, context, (&name, line), requests),
+            let Some((_, field)) = self.typed.as_mut().filter(|(of, _)| *of == name) else {
+                self.row(ui, context, (&name, line), requests);
+                continue;
+            };
+            let rect = rename::row(ui);
+            let end = field.show(ui, rect, "Name of the line", TextStyle::Body);
+            let new = field.text().trim().to_owned();
+            match end {
+                NameFieldEnd::Open => continue,
+                NameFieldEnd::Entered | NameFieldEnd::Left if !new.is_empty() && *new != *name => {
+                    send(requests, LineRequest::Set(name, "id", Some(new)));
+                }
+                NameFieldEnd::Entered | NameFieldEnd::Left | NameFieldEnd::GivenUp => {}
             }
+            self.typed = None;
         }
     }
 
@@ -99,7 +101,7 @@ impl LineRows {
         }
         response.context_menu(|ui| self.menu(ui, name, requests));
         if response.double_clicked() {
-            self.typed = Some((name.into(), name.to_owned()));
+            self.typed = Some((name.into(), NameField::of(name)));
         }
         if response.clicked() || response.secondary_clicked() {
             send(requests, LineRequest::Select(Some(name.into())));
@@ -120,7 +122,7 @@ impl LineRows {
             send(requests, LineRequest::UseAsPath(name.into()));
         }
         if entry(ui, "Rename") {
-            self.typed = Some((name.into(), name.to_owned()));
+            self.typed = Some((name.into(), NameField::of(name)));
         }
         submenu(ui, "Color", |ui| {
             for (title, color) in COLORS {

@@ -1,7 +1,7 @@
 //! The list of the things of a scene: roles, props, cameras, lights, effects, paths, marks.
 
 mod lines;
-mod name_field;
+mod rename;
 mod row;
 
 use super::super::context::PanelContext;
@@ -21,7 +21,7 @@ use dragonfly_document::bones::Choice;
 use egui::style::ScrollAnimation;
 use egui::{Align, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 use lines::LineRows;
-use name_field::NameField;
+use rename::ThingName;
 use std::sync::Arc;
 
 /// The kinds of things with their headings, in the order in which they are listed.
@@ -42,7 +42,7 @@ const SEARCHED: usize = 12;
 #[derive(Debug, Default)]
 pub struct Outliner {
     query: String,
-    name: NameField,
+    name: ThingName,
     lines: LineRows,
     /// The thing from which Shift selects.
     from: Option<Box<str>>,
@@ -169,7 +169,7 @@ impl Outliner {
         for own in &group[first.min(last)..last] {
             let id = id_of(script, *own);
             if renaming == Some(id) {
-                self.name.show(ui, context, id, requests);
+                rename::show(&mut self.name, ui, context, id, requests);
             } else if row::show(ui, context, scene, &script.tree().elements()[own.1], requests) {
                 self.choose(ui, script, id, listed, requests);
             }

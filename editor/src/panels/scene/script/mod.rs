@@ -5,6 +5,7 @@ mod error_list;
 mod lines;
 mod margin;
 mod popup;
+mod typed_text;
 mod typing;
 
 use super::super::context::PanelContext;
@@ -29,12 +30,13 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
+use typed_text::TypedText;
 use typing::TypedWord;
 
 /// The editor of the script.
 #[derive(Debug, Default)]
 pub struct ScriptPanel {
-    buffer: String,
+    buffer: TypedText,
     /// The text of the document that the buffer shows.
     of: Option<Arc<str>>,
     layout: ScriptLayout,
@@ -97,13 +99,13 @@ impl ScriptPanel {
             return;
         }
         self.of = Some(Arc::clone(text));
-        if **text == *self.buffer {
+        if **text == *self.buffer.as_str() {
             return;
         }
         if let Some(mut state) = TextEditState::load(ui.ctx(), id) {
             let moved = |cursor: CCursor| {
-                let at = byte_of(&self.buffer, cursor.index.0);
-                CCursor::new(characters_before(text, moved_position(at, &self.buffer, text)))
+                let at = byte_of(self.buffer.as_str(), cursor.index.0);
+                CCursor::new(characters_before(text, moved_position(at, self.buffer.as_str(), text)))
             };
             let range = state.cursor.char_range().map(|range| {
                 let (primary, secondary) = (moved(range.primary), moved(range.secondary));
@@ -113,7 +115,7 @@ impl ScriptPanel {
             state.clear_undoer();
             state.store(ui.ctx(), id);
         }
-        self.buffer = text.to_string();
+        self.buffer.set(text);
         self.suggestions.set(None);
     }
 
@@ -135,16 +137,15 @@ impl ScriptPanel {
         }
         if let Some(at) = self.jump.take() {
             let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
-            let cursor = CCursor::new(characters_before(&self.buffer, at));
+            let cursor = CCursor::new(characters_before(self.buffer.as_str(), at));
             state.cursor.set_char_range(Some(CCursorRange::one(cursor)));
             state.store(ui.ctx(), id);
             ui.memory_mut(|memory| memory.request_focus(id));
             self.followed = None;
         }
         let asks = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::CTRL, Key::Space));
-        let before = self.buffer.clone();
-        let width = margin::width(ui, &before);
-        let text_width = self.layout.galley(ui, &before).size().x + 24.0;
+        let width = margin::width(ui, self.buffer.as_str());
+        let text_width = self.layout.galley(ui, self.buffer.as_str()).size().x + 24.0;
         let room = text_width.max(ui.available_width() - width - 20.0);
         let layout = &mut self.layout;
         let mut layouter = |ui: &Ui, text: &dyn TextBuffer, _: f32| layout.galley(ui, text.as_str());
@@ -164,8 +165,9 @@ impl ScriptPanel {
                     .layouter(&mut layouter);
                 let background = ui.painter().add(egui::Shape::Noop);
                 let output = field.show(ui);
-                let lines = selected.as_ref().map(|range| lines_of(&self.buffer, range));
-                let sheet = margin::MarginSheet { text: &self.buffer, scene, output: &output, width, lines };
+                let text = self.buffer.as_str();
+                let lines = selected.as_ref().map(|range| lines_of(text, range));
+                let sheet = margin::MarginSheet { text, scene, output: &output, width, lines };
                 margin::background(ui, background, &sheet);
                 margin::show(ui, &sheet);
                 if let Some(range) = &follows {
@@ -178,17 +180,18 @@ impl ScriptPanel {
         let output = output.inner;
         let _named = output.response.response.clone().accessible_name("Script of the scene");
         self.followed = selected.or(self.followed.take());
-        let cursor = output.cursor_range.map(|range| byte_of(&self.buffer, range.primary.index.0));
-        if before != self.buffer {
-            self.typed(&before, time, context, requests);
-            let at = cursor.unwrap_or(self.buffer.len());
+        let cursor = output.cursor_range.map(|range| byte_of(self.buffer.as_str(), range.primary.index.0));
+        let before = self.buffer.take_before();
+        if let Some(before) = &before {
+            self.typed(before, time, context, requests);
+            let at = cursor.unwrap_or(self.buffer.as_str().len());
             self.suggest(scene, at, false);
         } else if asks && let Some(at) = cursor {
             self.suggest(scene, at, true);
         }
         let moved = cursor.filter(|at| has_focus && self.told != Some(*at));
         if let Some(at) = moved {
-            if before == self.buffer && !asks {
+            if before.is_none() && !asks {
                 self.suggestions.set(None);
             }
             self.told = Some(at);
@@ -223,7 +226,7 @@ impl ScriptPanel {
 
     /// Sends what was typed as a part of a word.
     fn typed(&mut self, before: &str, time: f64, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let Some(splice) = TextSplice::between(before, &self.buffer) else { return };
+        let Some(splice) = TextSplice::between(before, self.buffer.as_str()) else { return };
         let (gesture, over) = self.word.gesture(&splice, time, || context.new_gesture());
         requests.extend(over.map(|gesture| Request::Change(Change::Release(gesture))));
         let label = match (splice.range.is_empty(), splice.text.is_empty()) {
@@ -233,7 +236,8 @@ impl ScriptPanel {
             (true, false) => "Type",
         };
         let from: Arc<str> = before.into();
-        let change = ScriptChange { from, text: self.buffer.clone(), label, gesture: Some(gesture) };
+        let change =
+            ScriptChange { from, text: self.buffer.as_str().to_owned(), label, gesture: Some(gesture) };
         requests.push(Request::Scene(SceneRequest::Typed(change)));
     }
 
@@ -255,9 +259,10 @@ impl ScriptPanel {
         let sounds = Vec::from_iter(sounds);
         let (plan, project) = (scene.plan.as_deref(), scene.project.as_deref());
         let names = CompletionNames { plan, project, models: &models, lines: &lines, sounds: &sounds };
-        let found = completions(&self.buffer, at, &names);
+        let found = completions(self.buffer.as_str(), at, &names);
         // Unasked, a list appears only where something of the word is typed, or a tag or value begins.
-        let begins = self.buffer.get(..at).is_some_and(|text| text.ends_with(['<', '"', '\'', '.', '/']));
+        let begins =
+            self.buffer.as_str().get(..at).is_some_and(|text| text.ends_with(['<', '"', '\'', '.', '/']));
         self.suggestions.set(found.filter(|found| asked || begins || found.range.start < at));
     }
 
@@ -279,17 +284,17 @@ impl ScriptPanel {
             return;
         };
         self.suggestions.set(None);
-        let before = self.buffer.clone();
-        if self.buffer.get(range.clone()).is_none() {
+        if !self.buffer.replace_range(range.clone(), &item.insert) {
             return;
         }
-        self.buffer.replace_range(range.clone(), &item.insert);
         let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
-        let cursor = CCursor::new(characters_before(&self.buffer, range.start + item.cursor));
+        let cursor = CCursor::new(characters_before(self.buffer.as_str(), range.start + item.cursor));
         state.cursor.set_char_range(Some(CCursorRange::one(cursor)));
         state.store(ui.ctx(), id);
         ui.memory_mut(|memory| memory.request_focus(id));
-        self.typed(&before, time, context, requests);
+        if let Some(before) = self.buffer.take_before() {
+            self.typed(&before, time, context, requests);
+        }
     }
 }
 
