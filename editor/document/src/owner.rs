@@ -222,12 +222,20 @@ impl Document {
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
         let ticket = self.next_ticket();
         self.job = None;
-        match start_loading(&self.own, ticket, source.clone(), self.load) {
+        let started = match self.faults.refuses_read() {
+            true => Err(std::io::Error::other("injected fault")),
+            false => start_loading(&self.own, ticket, source.clone(), self.load),
+        };
+        match started {
             Ok(job) => {
                 let (gets_edits, of_scene) = (false, None);
                 self.job = Some(LoadingModel { _job: job, ticket, source, offer, gets_edits, of_scene });
             }
-            Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
+            Err(error) => {
+                self.stay();
+                self.reply(DocumentReply::Failed { source, reason: error.to_string() });
+                self.offer_late();
+            }
         }
     }
 
