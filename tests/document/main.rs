@@ -40,6 +40,7 @@ mod root_bone;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod save_kept_edits;
 mod scene_answers;
 mod scene_models;
 mod scene_models_later;

@@ -207,6 +207,10 @@ impl Open {
         };
         Ok(SaveInput {
             editable,
+            // Created during the save, it would have neither the takes of the old file nor the record of the save.
+            if self.journal_writer.lacks_steps() {
+                self.snapshot(false, now);
+            }
             edited: self.edited.clone(),
             base: self.base(),
             about: self.about.clone(),
