@@ -41,6 +41,7 @@ mod savable;
 mod save_and_open;
 mod save_in_background;
 mod save_kept_edits;
+mod save_rewritten;
 mod scene_answers;
 mod scene_models;
 mod scene_models_later;

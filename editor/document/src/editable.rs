@@ -191,6 +191,19 @@ impl Editable {
         }
     }
 
+    /// Returns whether the takes of `adapter` are those of the file, so that a save keeps its bytes also where the format has no edits in
+    /// place.
+    pub(super) fn is_unedited(&self, adapter: &ModelAdapter) -> bool {
+        let own = &self.on_disk.animation;
+        let saved = adapter.saved_takes();
+        let takes = adapter.slots().iter().zip(&saved).zip(&own.takes).enumerate();
+        Arc::ptr_eq(adapter.skeleton(), &own.skeleton)
+            && saved.len() == own.takes.len()
+            && takes.into_iter().all(|(index, ((slot, take), old))| {
+                self.place(slot) == Some(index) && (Arc::ptr_eq(take, old) || take == old)
+            })
+    }
+
     /// Returns the index of a take among the animations of the file.
     fn place(&self, slot: &TakeVersions) -> Option<usize> {
         match &self.places {

@@ -148,10 +148,6 @@ impl Open {
                 with_ending(path, &editable.ending()).map_err(NotSaved::Failed)?
             }
         };
-        self.is_rewritten |= order.rewrite;
-        if editable.format().is_some_and(|format| format.is_rewritten()) && !self.is_rewritten {
-            return Err(NotSaved::Rewritten);
-        }
         let own = self.file.path.is_some() && editable.is_own(&output);
         if own && copy {
             return Err(NotSaved::Failed("A copy of a file cannot be the file itself".to_owned()));
@@ -168,6 +164,14 @@ impl Open {
                 "{} is edited for {}, which plays this file; save a copy instead",
                 self.file.title, scene.open.file.title
             )));
+        }
+        if target != SaveTarget::Copy {
+            // A copy replaces nothing, so that the user decided nothing about the file of the document.
+            self.is_rewritten |= order.rewrite;
+            let is_whole = editable.format().is_some_and(|format| format.is_rewritten());
+            if is_whole && !self.is_rewritten && !editable.is_unedited(self.edited.adapter()) {
+                return Err(NotSaved::Rewritten);
+            }
         }
         let overwrite = match &order.to {
             SaveTo::Own if order.anyway => Overwrite::Anything,
