@@ -207,14 +207,14 @@ impl Open {
             None
         } else {
             self.edited.begin_save();
-            self.journal_writer.begin_save(now)
-        };
-        Ok(SaveInput {
-            editable,
             // Created during the save, it would have neither the takes of the old file nor the record of the save.
             if self.journal_writer.lacks_steps() {
                 self.snapshot(false, now);
             }
+            self.journal_writer.begin_save(now)
+        };
+        Ok(SaveInput {
+            editable,
             edited: self.edited.clone(),
             base: self.base(),
             about: self.about.clone(),
@@ -271,7 +271,7 @@ impl Open {
             }
             self.look();
         }
-        let beside = saved.files.len().saturating_sub(1);
+        let beside = saved.files.iter().filter(|file| **file != path).count();
         SavedFile { path, bytes: saved.bytes, beside, copy, notices: saved.notices, then: None }
     }
 
