@@ -2,7 +2,7 @@
 
 use super::adapter::{ModelAdapter, TextFiles};
 use super::beside::BesideStamps;
-use super::edit::parse_lines;
+use super::edit::{Edit, parse_lines};
 use super::load::load_inside;
 use super::source::LoadError;
 use super::{Folder, LoadedModel};
@@ -32,6 +32,8 @@ pub(super) struct SceneModelSource {
 /// Edits of a model that a project keeps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct KeptEdits {
+    /// Their file, relative to the folder of the project.
+    pub(super) file: Arc<str>,
     /// The edits, one a line.
     pub(super) text: Arc<str>,
     /// Hash of the file for which they were made; `None` where the project does not state it.
@@ -67,6 +69,15 @@ impl KeptEdits {
         self.is_empty() || self.hash.is_none_or(|own| own == hash)
     }
 
+    /// Returns them, each with the number of its line.
+    ///
+    /// # Errors
+    ///
+    /// The file and the first line that is not an edit, for example one of a newer version.
+    pub(super) fn steps(&self) -> Result<Vec<(usize, Edit)>, String> {
+        parse_lines(&self.text).map_err(|error| format!("{}: {error}", self.file))
+    }
+
     /// Returns whether there are none.
     pub(super) fn is_empty(&self) -> bool {
         self.text.trim().is_empty()
@@ -88,7 +99,11 @@ impl SceneModelSource {
         Self {
             file: project.source_of(name).to_owned(),
             conventions: conventions(element),
-            edits: edits.map(|file| KeptEdits { text: Arc::clone(&file.text), hash }),
+            edits: edits.map(|file| KeptEdits {
+                file: Arc::clone(&file.name),
+                text: Arc::clone(&file.text),
+                hash,
+            }),
         }
     }
 
