@@ -9,6 +9,7 @@ use super::message::DocumentReply;
 use super::open::{Change, Open};
 use super::owner::Document;
 use super::project_edits::{EditedModel, kept_in, made_for};
+use super::project_models::ProjectModels;
 use super::scene_model_source::{KeptEdits, SceneModelSource};
 use super::scene_models::SceneModelNews;
 use super::waiting_scene::{OutdatedEdits, OutdatedEditsChoice, SceneModelEdit, WaitingScene};
@@ -269,7 +270,8 @@ fn source_in(scene: &mut Open, name: &str, document: &Address<JobNews>) -> Scene
     // A change of a text that came just before counts.
     scene.update_scene(document);
     let project = scene.scene.as_ref().and_then(|scene| scene.project());
-    SceneModelSource::of(name, project.map(|project| &**project), scene.edited.adapter().texts())
+    let models = project.map(|project| ProjectModels::of(project));
+    SceneModelSource::of(name, models.as_ref(), scene.edited.adapter().texts())
 }
 
 /// Applies edits that a project keeps, each with its line, as steps. Returns those that do not fit, a sentence for each.

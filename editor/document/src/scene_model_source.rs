@@ -4,13 +4,13 @@ use super::adapter::{ModelAdapter, TextFiles};
 use super::beside::BesideStamps;
 use super::edit::{Edit, parse_lines};
 use super::load::load_inside;
+use super::project_models::ProjectModels;
 use super::source::LoadError;
 use super::{Folder, LoadedModel};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::{Conventions, Handedness, UpAxis};
 use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_anim::stage::StageModel;
-use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptElement;
 use dragonfly_runtime::CancelFlag;
 use std::sync::Arc;
@@ -86,18 +86,15 @@ impl KeptEdits {
 
 impl SceneModelSource {
     /// Returns what a script means by `name`: a model of `project`, with its edits among `texts`, or else the file itself.
-    pub(super) fn of(name: &str, project: Option<&StageProject>, texts: &TextFiles) -> Self {
-        let element = project.and_then(|project| {
-            let id = project.model_id(name)?;
-            project.element_with_id("model", id)
-        });
-        let Some((project, element)) = project.zip(element) else {
+    pub(super) fn of(name: &str, project: Option<&ProjectModels<'_>>, texts: &TextFiles) -> Self {
+        let found = project.and_then(|project| Some((project, project.model(name)?)));
+        let Some((project, element)) = found else {
             return Self { file: name.to_owned(), ..Self::default() };
         };
         let hash = element.value("hash").and_then(|hash| u64::from_str_radix(hash, 16).ok());
-        let edits = project.edits_of(name).and_then(|name| texts.called(name));
+        let edits = project.edits_of(element).and_then(|edits| texts.called(edits.value("src")?));
         Self {
-            file: project.source_of(name).to_owned(),
+            file: element.value("src").unwrap_or(name).to_owned(),
             conventions: conventions(element),
             edits: edits.map(|file| KeptEdits {
                 file: Arc::clone(&file.name),
