@@ -1,6 +1,7 @@
 //! A format of which a save writes the whole file: the user is asked before the file of the document is replaced, and only then.
 
 use dragonfly_anim::format::{Format, NoFiles, ReadOptions};
+use dragonfly_document::protocol::Session;
 use dragonfly_document::{
     Cancel, DocumentMessage, DocumentReply, LoadError, NotSaved, OpenedModel, Progress, SaveOrder, SaveTo,
     SavedFile, Setup, Source, load_model,
@@ -8,6 +9,7 @@ use dragonfly_document::{
 use dragonfly_fbx::{FBX, read_in_process};
 use dragonfly_kit::document::test_document::{TestDocument, rename};
 use dragonfly_kit::folder::{Folder, data};
+use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,7 +23,9 @@ fn opened(
     let path = source.path().expect("a file");
     let bytes = fs::read(path).expect("a file");
     let here = Format { read: read_in_process, ..FBX };
-    let imported = here.import(&bytes, &NoFiles, &ReadOptions::default()).expect("a model");
+    let mut imported = here.import(&bytes, &NoFiles, &ReadOptions::default()).expect("a model");
+    // Something that the format does not store.
+    imported.model.materials.first_mut().expect("a material").unlit = true;
     let mut loaded = load_model(&Source::BuiltIn, progress, cancel)?;
     (loaded.title, loaded.path, loaded.format) = (source.title(), Some(path.to_owned()), Some(FBX));
     (loaded.model, loaded.conversion) = (Arc::new(imported.model), imported.conversion);
@@ -45,6 +49,46 @@ fn save(document: &mut TestDocument, to: SaveTo, rewrite: bool) -> Result<SavedF
         DocumentReply::NotSaved(_, reason) => Some(Err(reason.clone())),
         _ => None,
     })
+}
+
+/// Returns how many of the sentences are about what the format does not store.
+fn losses<'a>(sentences: impl IntoIterator<Item = &'a str>) -> usize {
+    sentences.into_iter().filter(|text| text.contains("that it is not lit is not stored")).count()
+}
+
+#[test]
+fn what_a_save_of_the_whole_file_loses_is_reported_once_for_each_file() {
+    let folder = Folder::new("rewritten-lost");
+    let (mut document, _, _) = cube(&folder);
+    let mut save = |edit: &str, to: SaveTo| {
+        document.edit(rename(edit));
+        let saved = save(&mut document, to, true).expect("the user has decided");
+        losses(saved.notices.iter().map(String::as_str))
+    };
+    let [copy, other] = ["Copy.fbx", "Other.fbx"].map(|name| folder.join(name));
+    assert_eq!(save("Stroll", SaveTo::Copy(copy)), 1);
+    assert_eq!(save("Jog", SaveTo::Own), 1);
+    assert_eq!(save("Run", SaveTo::Own), 0, "the file has lost it already");
+    assert_eq!(save("Sprint", SaveTo::As(other)), 1);
+}
+
+#[test]
+fn a_session_answers_what_its_save_of_the_whole_file_lost() {
+    let folder = Folder::new("rewritten-session");
+    let path = folder.join("Cube.fbx");
+    fs::copy(data("fbx/maya_blend_shape_cube_7700_binary.fbx"), &path).expect("a file");
+    let opened = opened(&Source::File(path), &mut |_| {}, &Cancel::default()).expect("a model");
+    let mut session = Session::new(opened.editable.expect("it can be saved"));
+    let lost = |session: &mut Session| {
+        let answer = session.answer(r#"{"do":"save"}"#).expect("an answer");
+        let answer: Value = serde_json::from_str(&answer).expect("JSON");
+        assert_eq!(answer["ok"]["written"].as_array().map(Vec::len), Some(1), "{answer}");
+        let lost = answer["ok"]["lost"].as_array().cloned().unwrap_or_default();
+        losses(lost.iter().filter_map(Value::as_str))
+    };
+    assert_eq!(lost(&mut session), 0, "nothing was edited, so the file keeps its bytes");
+    session.answer(&serde_json::json!({"do": "edit", "edit": rename("Stroll")}).to_string());
+    assert_eq!(lost(&mut session), 1);
 }
 
 /// Returns the name of the first take of an FBX file.

@@ -65,7 +65,8 @@ pub struct SavedFile {
     pub beside: usize,
     /// Whether it is a copy: the document is as unsaved as before.
     pub copy: bool,
-    /// Attributes of the old file that were lost, one sentence each.
+    /// Attributes of the old file that were lost, and content of the model that the format does not store, one sentence each. Later saves
+    /// of the same file do not repeat the latter.
     pub notices: Vec<String>,
     /// The action that follows.
     pub then: Option<Then>,
@@ -253,12 +254,16 @@ impl Open {
         autosave: Option<&Autosave>,
         now: Instant,
     ) -> SavedFile {
-        let WrittenSave { editable, saved, path, target, journal } = written;
+        let WrittenSave { editable, saved, lost, path, target, journal } = written;
         let copy = target == SaveTarget::Copy;
+        let mut notices = saved.notices;
+        let is_known = |text: &&String| target == SaveTarget::Own && self.lost.contains(text);
+        notices.extend(lost.iter().filter(|text| !is_known(text)).cloned());
         if !copy {
             self.edited.end_save(true);
         }
         if !copy {
+            self.lost = lost;
             let stamp = editable.stamp().copied();
             self.base = Some(self.base());
             self.editable = Ok(editable);
@@ -272,7 +277,7 @@ impl Open {
             self.look();
         }
         let beside = saved.files.iter().filter(|file| **file != path).count();
-        SavedFile { path, bytes: saved.bytes, beside, copy, notices: saved.notices, then: None }
+        SavedFile { path, bytes: saved.bytes, beside, copy, notices, then: None }
     }
 
     /// Makes `path` the file of the document, and `journal` its journal.
