@@ -252,7 +252,7 @@ fn work_whose_file_could_not_be_read_again_is_not_discarded() {
     document.open(&path);
     document.edit(turn(0.4));
     refused.0.store(true, Ordering::Relaxed);
-    // What the editor sends for "Reload".
+    // The two messages that the editor sends for "Reload".
     document.send(DocumentMessage::DoNotSave);
     document.send(DocumentMessage::Open { source: Source::File(path), anyway: true });
     document.wait_for_reply(|reply| matches!(reply, DocumentReply::Failed { .. }).then_some(()));

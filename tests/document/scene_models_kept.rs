@@ -43,7 +43,7 @@ fn a_model_is_not_opened_to_edit_it_while_a_line_of_its_kept_edits_cannot_be_rea
 }
 
 #[test]
-fn the_user_is_told_that_edits_that_do_not_fit_will_be_removed_and_an_undo_brings_them_back() {
+fn edits_that_do_not_fit_are_removed_only_after_a_warning_and_an_undo_brings_them_back() {
     let folder = Folder::new("scene-models-unfit");
     let lines = "{\"edit\":\"reverse_take\",\"take\":\"Dance\"}\n{\"edit\":\"rename_take\",\"take\":0,\"name\":\"Look around\"}\n";
     let mut document = kept(&folder, lines);

@@ -13,7 +13,7 @@ use dragonfly_kit::folder::Folder;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-pub(super) fn opened(folder: &Folder) -> (TestDocument, PathBuf) {
+fn opened(folder: &Folder) -> (TestDocument, PathBuf) {
     let path = project(folder);
     let mut document = TestDocument::new(&folder.join("autosave"));
     document.open(&path);
@@ -21,7 +21,7 @@ pub(super) fn opened(folder: &Folder) -> (TestDocument, PathBuf) {
     (document, path)
 }
 
-pub(super) fn is_renamed(view: &View) -> bool {
+fn is_renamed(view: &View) -> bool {
     takes(view, "fox").first().is_some_and(|name| name == "Look around")
 }
 

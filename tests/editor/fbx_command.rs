@@ -131,7 +131,7 @@ fn an_edited_fbx_file_is_replaced_as_a_whole_and_an_unedited_one_keeps_its_bytes
     let (before, after) = (takes(&cube), takes(&other));
     assert_eq!(after[0]["name"], "Grow", "{after}");
     assert_eq!((&after[0]["start"], &after[0]["end"]), (&before[0]["start"], &before[0]["end"]), "{before}");
-    // What the format does not store is listed, also where the file is written.
+    // Content that the format does not store is listed, also where the file is written.
     std::fs::write(&edits, r#"{"edit":"add_layer","take":0,"name":"More"}"#).unwrap();
     let edit = |more: &[&str]| {
         let words = ["edit", text(&cube), "--edits", text(&edits), "-o", text(&other)];
