@@ -1,11 +1,14 @@
 //! A document has limits while it is edited, as a file has when it is read.
 
+use crate::projects::is_read;
 use crate::save_and_open::open;
+use crate::scenes::replaced;
 use dragonfly_document::adapter::{EditError, KEY_BYTES, ModelAdapter};
 use dragonfly_document::edit::{DuplicateKeys, Edit, KeySet, TakeRef};
 use dragonfly_document::history::Edited;
 use dragonfly_kit::counting::peak;
-use dragonfly_kit::folder::data;
+use dragonfly_kit::document::test_document::TestDocument;
+use dragonfly_kit::folder::{Folder, data};
 
 #[test]
 fn keys_that_are_doubled_again_and_again_are_refused_at_a_limit_that_is_named() {
@@ -32,6 +35,29 @@ fn keys_that_are_doubled_again_and_again_are_refused_at_a_limit_that_is_named() 
         }
     }
     panic!("{} keys", edited.adapter().slots()[0].original.keys());
+}
+
+#[test]
+fn a_project_of_a_hundred_thousand_models_is_opened_and_edited_as_soon_as_its_text_is_read() {
+    const MODELS: usize = 100_000;
+    let folder = Folder::new("limits-project");
+    let models: String =
+        (0..MODELS).map(|number| format!("<model id=\"m{number}\" src=\"m{number}.glb\"/>\n")).collect();
+    let text = format!(
+        "<project version=\"1\" name=\"Crowd\"><models>\n{models}</models><script id=\"main\" src=\"main.xml\"/></project>"
+    );
+    assert!(text.len() > 3 << 20 && text.len() < 8 << 20, "{} bytes", text.len());
+    let script = "<script version=\"1\"><cast><role id=\"a\" model=\"m99999\"/></cast></script>";
+    let path = folder.join("crowd.meproj");
+    std::fs::write(&path, &text).expect("a file");
+    std::fs::write(folder.join("main.xml"), script).expect("a file");
+    std::fs::copy(data("gltf/Fox.glb"), folder.join("m99999.glb")).expect("a file");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    // A look at each model for each of them would take longer than the test document waits.
+    document.open(&path);
+    document.wait_for_view(is_read);
+    document.edit(replaced(&text, "Crowd", "All"));
+    document.wait_for_view(|view| view.history.done == 1 && is_read(view));
 }
 
 #[test]

@@ -3,11 +3,14 @@
 use super::projects::{END, LINES, MAIN, PROJECT, is_read, project, replaced_in, restored, text_of};
 use super::scenes::{replaced, scene_of};
 use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
+use dragonfly_document::protocol::Session;
 use dragonfly_document::{
-    Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, SceneModel, paths_of_renamed_line,
+    Cancel, Change, DocumentMessage, DocumentReply, Editable, NotSaved, SaveOrder, SaveTo, SceneModel,
+    Source, paths_of_renamed_line,
 };
 use dragonfly_kit::document::test_document::{TestDocument, copy_after_kill};
 use dragonfly_kit::folder::Folder;
+use serde_json::Value;
 use std::fs;
 
 fn create(name: &str) -> Edit {
@@ -84,6 +87,60 @@ fn a_file_that_a_new_text_replaces_on_request_is_the_only_one_that_is_not_checke
     document.send(DocumentMessage::Save(order));
     document.wait_for_reply(|reply| matches!(reply, DocumentReply::Saved(_)).then_some(()));
     assert_eq!(fs::read_to_string(folder.join("there.xml")).expect("a file"), END);
+}
+
+#[test]
+fn a_decision_to_replace_a_file_does_not_hold_for_one_that_the_project_has_read() {
+    let folder = Folder::new("project-decided");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&project(&folder));
+    document.edit(replaced_in("main.xml", MAIN, "speed=\"1\"", "speed=\"2\""));
+    // Both were read, so that a change of them is asked about; the decided one does not hide the other one.
+    for changed in ["main.xml", "end.xml"] {
+        fs::write(folder.join(changed), "of another program").expect("a file");
+        let order = SaveOrder { replaces: vec![folder.join("end.xml")], ..SaveOrder::own(None) };
+        assert_eq!(not_saved(&mut document, order), NotSaved::Changed, "{changed}");
+        fs::write(folder.join(changed), if changed == "main.xml" { MAIN } else { END }).expect("a file");
+    }
+}
+
+#[test]
+fn a_project_that_was_deleted_is_written_again_with_a_script_of_it_that_was_edited() {
+    let folder = Folder::new("project-deleted");
+    let path = project(&folder);
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    document.edit(replaced_in("main.xml", MAIN, "speed=\"1\"", "speed=\"2\""));
+    fs::remove_file(&path).expect("it is there");
+    let saved = document.save(SaveTo::Own);
+    assert_eq!(saved.beside, 1);
+    assert_eq!(fs::read_to_string(&path).expect("it counts as saved"), PROJECT);
+    assert!(document.view().history.saved);
+    // While it is there, it stays as it is, and only the script is written.
+    document.change(Change::Undo);
+    let before = fs::metadata(&path).and_then(|data| data.modified()).expect("a time");
+    assert_eq!(document.save(SaveTo::Own).beside, 1);
+    assert_eq!(fs::metadata(&path).and_then(|data| data.modified()).expect("a time"), before);
+    assert_eq!(fs::read_to_string(folder.join("main.xml")).expect("a file"), MAIN);
+}
+
+#[test]
+fn a_session_lists_exactly_the_files_that_its_save_wrote() {
+    let folder = Folder::new("project-written");
+    let path = project(&folder);
+    let editable = Editable::open(&Source::File(path.clone()), &Cancel::default()).expect("a project");
+    let mut session = Session::new(editable);
+    let mut written_after = |edit: &Edit| {
+        let edit = serde_json::json!({"do": "edit", "edit": edit});
+        session.answer(&edit.to_string()).expect("an answer");
+        let answer = session.answer(r#"{"do":"save"}"#).expect("an answer");
+        let answer: Value = serde_json::from_str(&answer).expect("JSON");
+        answer["ok"]["written"].clone()
+    };
+    let script = folder.join("main.xml");
+    let edit = replaced_in("main.xml", MAIN, "speed=\"1\"", "speed=\"2\"");
+    assert_eq!(written_after(&edit), serde_json::json!([script]), "the project stays as it is");
+    assert_eq!(written_after(&replaced(PROJECT, "Two foxes", "Foxes")), serde_json::json!([path]));
 }
 
 #[test]

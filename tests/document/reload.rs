@@ -4,14 +4,19 @@
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::Edit;
 use dragonfly_document::{
-    Cancel, Change, Decision, DocumentMessage, DocumentReply, Editable, SaveTo, Source, UnfitEdit, View,
+    Cancel, Change, Decision, DocumentMessage, DocumentReply, Editable, FaultInjection, FaultPlan, SaveTo,
+    Setup, Source, Then, UnfitEdit, View,
 };
 use dragonfly_kit::document::new_version::{new_version, rename_nodes, reverse};
-use dragonfly_kit::document::test_document::{TestDocument, copy_after_kill, fox, same_takes, turn};
+use dragonfly_kit::document::test_document::{
+    TestDocument, autosave_in, copy_after_kill, fox, same_takes, turn,
+};
 use dragonfly_kit::folder::Folder;
 use glam::Quat;
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 fn edit(line: &str) -> Edit {
     serde_json::from_str(line).expect(line)
@@ -224,4 +229,38 @@ fn a_new_version_for_the_tests_has_the_same_takes_in_another_order() {
         editable.model.animation.skeleton.bones.iter().map(|bone| bone.name.clone()).collect()
     };
     assert_ne!(bones(&old), bones(&new));
+}
+
+/// A fault plan by which no job that reads a file starts while it is set.
+#[derive(Debug, Default)]
+struct RefusedReads(AtomicBool);
+
+impl FaultPlan for RefusedReads {
+    fn refuses_read(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+#[test]
+fn work_whose_file_could_not_be_read_again_is_not_discarded() {
+    let folder = Folder::new("reload-refused");
+    let path = fox(&folder);
+    let refused = Arc::new(RefusedReads::default());
+    let faults = FaultInjection::new(Arc::clone(&refused) as _);
+    let autosave = Some(autosave_in(&folder.join("autosave")));
+    let mut document = TestDocument::with(Setup { faults, autosave, ..Setup::default() });
+    document.open(&path);
+    document.edit(turn(0.4));
+    refused.0.store(true, Ordering::Relaxed);
+    // The two messages that the editor sends for "Reload".
+    document.send(DocumentMessage::DoNotSave);
+    document.send(DocumentMessage::Open { source: Source::File(path), anyway: true });
+    document.wait_for_reply(|reply| matches!(reply, DocumentReply::Failed { .. }).then_some(()));
+    document.send(DocumentMessage::Quit);
+    let asks = document.wait_for_reply(|reply| match reply {
+        DocumentReply::Unsaved(Then::Quit) => Some(true),
+        DocumentReply::MayQuit => Some(false),
+        _ => None,
+    });
+    assert!(asks, "the work is still there");
 }

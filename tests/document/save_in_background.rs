@@ -17,7 +17,7 @@ use std::time::Duration;
 
 /// A fault plan that holds a save at a point until it is released.
 #[derive(Debug)]
-struct HeldSave {
+pub(super) struct HeldSave {
     at: FaultPoint,
     state: Mutex<Held>,
     changed: Condvar,
@@ -34,7 +34,7 @@ struct Held {
 }
 
 impl HeldSave {
-    fn at(at: FaultPoint) -> Arc<Self> {
+    pub(super) fn at(at: FaultPoint) -> Arc<Self> {
         Arc::new(Self { at, state: Mutex::default(), changed: Condvar::new() })
     }
 
@@ -43,17 +43,17 @@ impl HeldSave {
         self.changed.notify_all();
     }
 
-    fn hold(&self) {
+    pub(super) fn hold(&self) {
         self.change(|held| held.closed = true);
     }
 
-    fn release(&self) {
+    pub(super) fn release(&self) {
         self.change(|held| *held = Held { panics: held.panics, ..Held::default() });
     }
 
     /// Starts a save and waits until it is held.
     #[track_caller]
-    fn hold_save(&self, document: &TestDocument, to: SaveTo) {
+    pub(super) fn hold_save(&self, document: &TestDocument, to: SaveTo) {
         self.hold();
         document.send(order(to));
         self.wait_until_reached();
@@ -81,9 +81,9 @@ impl FaultPlan for HeldSave {
     }
 }
 
-const POINTS: [FaultPoint; 2] = [FaultPoint::PrepareSave, FaultPoint::WriteSave];
+pub(super) const POINTS: [FaultPoint; 2] = [FaultPoint::PrepareSave, FaultPoint::WriteSave];
 
-fn document(autosave: &Path, held: &Arc<HeldSave>) -> TestDocument {
+pub(super) fn document(autosave: &Path, held: &Arc<HeldSave>) -> TestDocument {
     let faults = FaultInjection::new(Arc::clone(held) as _);
     TestDocument::with(Setup { autosave: Some(autosave_in(autosave)), faults, ..Setup::default() })
 }
@@ -102,7 +102,7 @@ fn order(to: SaveTo) -> DocumentMessage {
 }
 
 #[track_caller]
-fn wait_until_saved(document: &mut TestDocument) {
+pub(super) fn wait_until_saved(document: &mut TestDocument) {
     document.wait_for_reply(|reply| match reply {
         DocumentReply::Saved(_) => Some(()),
         DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
@@ -116,7 +116,7 @@ fn on_disk(path: &Path) -> View {
 }
 
 /// Starts the program after a kill and restores what it offers; the steps offered, and the view then.
-fn restored(autosave: &Path, path: &Path) -> (usize, View) {
+pub(super) fn restored(autosave: &Path, path: &Path) -> (usize, View) {
     let mut document = TestDocument::new(autosave);
     document.open(path);
     let offer = document.wait_for_offers().remove(0);

@@ -26,7 +26,7 @@ fn is_renamed(view: &View) -> bool {
 }
 
 /// Makes the project keep one edit of the fox.
-fn keep_rename(document: &mut TestDocument) {
+pub(super) fn keep_rename(document: &mut TestDocument) {
     enter(document);
     document.edit(rename("Look around"));
     document.send(DocumentMessage::ShowScene);
@@ -34,7 +34,7 @@ fn keep_rename(document: &mut TestDocument) {
 }
 
 /// Waits until the document replies that leaving would lose work, or that it may end. Returns whether it may.
-fn asks_to_quit(document: &mut TestDocument) -> bool {
+pub(super) fn asks_to_quit(document: &mut TestDocument) -> bool {
     document.send(DocumentMessage::Quit);
     document.wait_for_reply(|reply| match reply {
         DocumentReply::MayQuit => Some(true),
@@ -43,7 +43,7 @@ fn asks_to_quit(document: &mut TestDocument) -> bool {
     })
 }
 
-fn refused(document: &mut TestDocument, word: &str) {
+pub(super) fn refused(document: &mut TestDocument, word: &str) {
     document.wait_for_reply(|reply| {
         matches!(reply, DocumentReply::Refused(reason) if reason.contains(word)).then_some(())
     });

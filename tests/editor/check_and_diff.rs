@@ -173,6 +173,27 @@ fn limits_of_joints_beside_a_model_are_used_for_its_takes() {
 }
 
 #[test]
+fn a_limit_of_a_joint_that_the_model_does_not_have_is_a_warning_and_the_rest_is_checked() {
+    let folder = Folder::new("check-unknown-joint");
+    let limits = folder.join("lint.json");
+    let joint = r#"{"ball":{"axis":"x","swing":0,"twist":[0,0]}}"#;
+    let content = format!(r#"{{"joint_limit":1,"joints":{{"Nose":{joint},"b_Neck_04":{joint}}}}}"#);
+    std::fs::write(&limits, content).expect("written");
+    let found =
+        run(["check", text(&fox()), "--takes", "--thresholds", text(&limits), "--json"]).expect(1).json();
+    let warnings: Vec<&str> = found[0]["findings"]
+        .as_array()
+        .expect("findings")
+        .iter()
+        .filter(|finding| finding["severity"] == "warning" && finding["rule"] == "JOINTS")
+        .filter_map(|finding| finding["text"].as_str())
+        .collect();
+    assert_eq!(warnings, ["\"joints\" names bones that the model does not have: \"Nose\""], "{found}");
+    let defects = found[0]["takes"].as_array().expect("defects");
+    assert!(defects.iter().any(|defect| defect["rule"] == "joint_limit"), "{found}");
+}
+
+#[test]
 fn wrong_thresholds_are_an_input_error_that_names_them() {
     let folder = Folder::new("check-thresholds");
     let limits = folder.join("lint.json");
@@ -186,8 +207,8 @@ fn wrong_thresholds_are_an_input_error_that_names_them() {
         (r#"{"joints":{"Head":{"screw":{}}}}"#, "the joint of \"Head\": unknown variant `screw`"),
         (r#"{"joints":{"Head":{"hinge":{"axis":[0,0,0],"range":[0,1]}}}}"#, "an axis has no direction"),
         (
-            r#"{"joints":{"Nose":{"hinge":{"axis":"x","range":[0,1]}}}}"#,
-            "a bone \"Nose\" that the model does not have",
+            r#"{"joints":{"Head":{"hinge":{"axis":"x","range":[150,0]}}}}"#,
+            "the joint of \"Head\": the range [150, 0] ends before it begins",
         ),
     ] {
         std::fs::write(&limits, content).expect("written");

@@ -131,6 +131,17 @@ fn an_edited_fbx_file_is_replaced_as_a_whole_and_an_unedited_one_keeps_its_bytes
     let (before, after) = (takes(&cube), takes(&other));
     assert_eq!(after[0]["name"], "Grow", "{after}");
     assert_eq!((&after[0]["start"], &after[0]["end"]), (&before[0]["start"], &before[0]["end"]), "{before}");
+    // Content that the format does not store is listed, also where the file is written.
+    std::fs::write(&edits, r#"{"edit":"add_layer","take":0,"name":"More"}"#).unwrap();
+    let edit = |more: &[&str]| {
+        let words = ["edit", text(&cube), "--edits", text(&edits), "-o", text(&other)];
+        run(words.into_iter().chain(more.iter().copied()).collect::<Vec<_>>()).expect(0)
+    };
+    let lost = edit(&["--json"]).json()["lost"].clone();
+    assert_eq!(lost.as_array().map(Vec::len), Some(1), "{lost}");
+    let lost = lost[0].as_str().expect("a sentence");
+    assert!(lost.contains("layers, contacts and events are not stored"), "{lost}");
+    assert!(edit(&[]).stderr.contains(&format!("not saved: {lost}")));
     let refused = run(["edit", text(&cube), "-o", text(&folder.join("cube.glb"))]).expect(2);
     assert!(refused.stderr.contains("fbx"), "{}", refused.stderr);
     assert!(!folder.join("cube.glb").exists());

@@ -121,8 +121,16 @@ fn options_that_a_scene_would_ignore_are_refused() {
     for option in [["--take", "Walk"], ["--scale", "0.01"], ["--up", "z"]] {
         let refused = run(["render", text(&path), option[0], option[1], "-o", text(&image)]).expect(2);
         assert!(refused.stderr.contains(option[0]), "{}", refused.stderr);
+        let refused =
+            run(["pose", text(&path), "--role", "fox", "--time", "0", option[0], option[1]]).expect(2);
+        assert!(refused.stderr.contains(option[0]), "{}", refused.stderr);
     }
     assert!(!image.exists());
+    // The message names the options that were given, and it holds for a script without a project.
+    let refused =
+        run(["render", text(&path), "--hand", "left", "--rate", "24", "-o", text(&image)]).expect(2);
+    let wanted = "--hand, --rate: these options are for a model file; a scene does not use them";
+    assert!(refused.stderr.contains(wanted), "{}", refused.stderr);
     let model = path.with_file_name("models/Fox.glb");
     let refused = run(["render", text(&model), "--camera", "wide", "-o", text(&image)]).expect(2);
     assert!(refused.stderr.contains("(.meproj)"), "{}", refused.stderr);

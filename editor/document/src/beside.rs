@@ -59,7 +59,7 @@ impl AssetFs for ReadOnce {
             }
             Some(Err(error)) if error.kind() == io::ErrorKind::WouldBlock => {
                 return Err(AssetError::Failed(
-                    "it changed while it was read; open the model again".to_owned(),
+                    "it changed while it was read; open the file again".to_owned(),
                 ));
             }
             // A change that cannot be detected now is not detected later either.

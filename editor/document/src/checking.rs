@@ -7,6 +7,15 @@ use super::take_check::{CheckedTake, TakeCheck};
 use crate::text::sentence;
 use dragonfly_runtime::Job;
 
+/// The check of takes.
+#[derive(Default)]
+pub(super) struct TakeChecking {
+    /// The job of the newest check; dropping it cancels it.
+    job: Option<Job>,
+    /// The warning of the last check. Each state of a take is checked, and the user is warned once.
+    warning: Option<String>,
+}
+
 impl Document {
     /// Checks a take in a job. The reply is [`DocumentReply::Checked`].
     pub(super) fn check_take(&mut self, check: TakeCheck) {
@@ -18,16 +27,21 @@ impl Document {
             |panic| JobNews::Checked(Err(format!("the take could not be checked: {panic}"))),
         );
         match begun {
-            Ok(job) => self.checking = Some(job),
+            Ok(job) => self.checking.job = Some(job),
             Err(error) => self.reply(DocumentReply::Warning(error.to_string())),
         }
     }
 
     /// Handles the result of the check.
     pub(super) fn checked(&mut self, result: Result<CheckedTake, String>) {
-        self.reply(match result {
-            Ok(checked) => DocumentReply::Checked(checked),
-            Err(reason) => DocumentReply::Refused(sentence(&reason)),
-        });
+        let checked = match result {
+            Ok(checked) => checked,
+            Err(reason) => return self.reply(DocumentReply::Refused(sentence(&reason))),
+        };
+        if self.checking.warning != checked.warning {
+            self.checking.warning.clone_from(&checked.warning);
+            checked.warning.iter().for_each(|text| self.reply(DocumentReply::Warning(text.clone())));
+        }
+        self.reply(DocumentReply::Checked(checked));
     }
 }

@@ -191,6 +191,19 @@ impl Editable {
         }
     }
 
+    /// Returns whether the takes of `adapter` are those of the file, so that a save keeps its bytes also where the format has no edits in
+    /// place.
+    pub(super) fn is_unedited(&self, adapter: &ModelAdapter) -> bool {
+        let own = &self.on_disk.animation;
+        let saved = adapter.saved_takes();
+        let takes = adapter.slots().iter().zip(&saved).zip(&own.takes).enumerate();
+        Arc::ptr_eq(adapter.skeleton(), &own.skeleton)
+            && saved.len() == own.takes.len()
+            && takes.into_iter().all(|(index, ((slot, take), old))| {
+                self.place(slot) == Some(index) && (Arc::ptr_eq(take, old) || take == old)
+            })
+    }
+
     /// Returns the index of a take among the animations of the file.
     fn place(&self, slot: &TakeVersions) -> Option<usize> {
         match &self.places {
@@ -233,7 +246,7 @@ impl Editable {
     /// Returns the files that the model needs and that are missing in `folder`.
     fn taken_along(&self, folder: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
-        if is_same_folder(from, folder) {
+        if is_same_path(from, folder) {
             return Ok(Vec::new());
         }
         let door = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
@@ -286,9 +299,9 @@ impl Editable {
         self.path.as_deref().map(|path| unused::remove(path, &self.content.neighbors())).unwrap_or_default()
     }
 
-    /// Returns whether this is the path of the opened file.
+    /// Returns whether this is the path of the opened file, which may be deleted.
     pub(super) fn is_own(&self, path: &Path) -> bool {
-        self.path.as_deref().is_some_and(|own| same_file(own, path))
+        self.path.as_deref().is_some_and(|own| is_same_path(own, path))
     }
 
     /// Returns the format of the file; `None` for texts.
@@ -348,13 +361,9 @@ pub(super) fn opened(
     }
 }
 
-/// Returns whether two paths lead to the same folder.
-pub(super) fn is_same_folder(a: &Path, b: &Path) -> bool {
-    a == b || std::fs::canonicalize(a).ok().is_some_and(|a| std::fs::canonicalize(b).is_ok_and(|b| a == b))
-}
-
-pub(super) fn same_file(a: &Path, b: &Path) -> bool {
-    matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
+/// Returns whether two paths lead to the same file or folder. It need not exist where they are equal.
+pub(super) fn is_same_path(a: &Path, b: &Path) -> bool {
+    a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Creates the folder of `path` if it does not exist, and flushes its name to the disk.

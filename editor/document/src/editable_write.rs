@@ -2,7 +2,7 @@
 
 use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
-use super::editable::{Editable, WrittenFile, is_same_folder, make_folder, opened, places, same_file};
+use super::editable::{Editable, WrittenFile, is_same_path, make_folder, opened, places};
 use super::edited_content::EditedContent;
 use super::source::file_name;
 use super::unused;
@@ -56,7 +56,6 @@ impl Editable {
         if self.keeps_main(&main, &bytes, how.overwrite) {
             self.beside.extend(beside);
             saved.bytes = bytes.len();
-            saved.files.push(main);
             self.content = EditedContent::Texts(adapter.texts().clone());
             return Ok(saved);
         }
@@ -77,7 +76,7 @@ impl Editable {
         saved.notices.extend(done.notices);
         saved.bytes = bytes.len();
         let is_elsewhere =
-            self.path.as_deref().is_some_and(|path| !is_same_folder(folder_of(path), folder_of(&main)));
+            self.path.as_deref().is_some_and(|path| !is_same_path(folder_of(path), folder_of(&main)));
         if is_elsewhere && matches!(self.content, EditedContent::Texts(_)) {
             let notice = "its models were not copied to the new folder; `dragonfly pack` collects all files of a scene";
             saved.notices.push(notice.to_owned());
@@ -105,13 +104,13 @@ impl Editable {
     /// Returns what a file next to the main one must be when it is written.
     fn expected(&self, path: &Path, how: &Writing<'_>) -> ExpectedFile<'_> {
         let is_text = matches!(self.content, EditedContent::Texts(_));
+        let is_decided = || how.replaces.iter().any(|other| is_same_path(other, path));
         match self.beside.of(path) {
-            _ if how.overwrite != Overwrite::AsRead || how.replaces.iter().any(|other| other == path) => {
-                ExpectedFile::Anything
-            }
+            _ if how.overwrite != Overwrite::AsRead => ExpectedFile::Anything,
+            // The user decided about a file that the document had not read.
             Some(stamp) => ExpectedFile::Stamp(stamp),
             // A text that the project got since it was opened.
-            None if is_text => ExpectedFile::Nothing,
+            None if is_text && !is_decided() => ExpectedFile::Nothing,
             None => ExpectedFile::Anything,
         }
     }
@@ -124,12 +123,10 @@ impl Editable {
         how: &Writing<'_>,
     ) -> Result<(), SaveFailure> {
         if how.overwrite == Overwrite::AsRead {
-            let is_decided = |path: &Path| how.replaces.iter().any(|other| same_file(other, path));
-            if let Some((path, _)) = self.changed_beside().filter(|(path, _)| !is_decided(path)) {
+            if let Some((path, _)) = self.changed_beside() {
                 return Err(SaveFailure::Changed(path.to_path_buf()));
             }
-            let state = self.stamp.as_ref().and_then(|stamp| stamp.state(&RealFiles, main).ok());
-            if state == Some(FileState::Changed) {
+            if self.state_of(main) == Some(FileState::Changed) {
                 return Err(SaveFailure::Changed(main.to_path_buf()));
             }
         }
@@ -173,7 +170,13 @@ impl Editable {
     pub(super) fn keeps_main(&self, path: &Path, bytes: &[u8], overwrite: Overwrite) -> bool {
         let EditedContent::Texts(texts) = &self.content else { return false };
         let is_same = texts.main().is_some_and(|text| text.as_bytes() == bytes);
-        overwrite == Overwrite::AsRead && texts.list().len() > 1 && is_same && self.is_own(path)
+        let is_there = || self.state_of(path).map_or_else(|| path.exists(), |state| state == FileState::Same);
+        overwrite == Overwrite::AsRead && texts.list().len() > 1 && is_same && self.is_own(path) && is_there()
+    }
+
+    /// Returns the state of the main file at `path` since it was read or saved last; `None` where that is not known.
+    fn state_of(&self, path: &Path) -> Option<FileState> {
+        self.stamp.as_ref().and_then(|stamp| stamp.state(&RealFiles, path).ok())
     }
 
     /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.

@@ -3,12 +3,13 @@
 //! A model has its own history and journal while it is edited. When the scene is shown again, the edits that are not saved into the model
 //! become one step of the project, and are saved with it ([`super::project_edits`]).
 
-use super::edit::{Edit, parse_lines};
+use super::edit::Edit;
 use super::job::JobNews;
 use super::message::DocumentReply;
 use super::open::{Change, Open};
 use super::owner::Document;
 use super::project_edits::{EditedModel, kept_in, made_for};
+use super::project_models::ProjectModels;
 use super::scene_model_source::{KeptEdits, SceneModelSource};
 use super::scene_models::SceneModelNews;
 use super::waiting_scene::{OutdatedEdits, OutdatedEditsChoice, SceneModelEdit, WaitingScene};
@@ -74,7 +75,7 @@ impl Document {
     }
 
     /// Shows a model of the scene, which waits. The edits that the project keeps are steps of it. If they were made for another file, asks
-    /// what becomes of them instead.
+    /// what becomes of them instead; if they cannot be read, refuses, because the next edit would remove them.
     pub(super) fn enter_model(&mut self, opened: OpenedModel, model: SceneModelEdit) {
         let mut open = Open::new(opened, self.autosave.clone());
         let kept = model.source.edits.as_ref();
@@ -86,8 +87,16 @@ impl Document {
             self.stay();
             return self.reply(DocumentReply::OutdatedEdits(OutdatedEdits { model, title, hash }));
         }
+        let steps = match kept.map_or(Ok(Vec::new()), KeptEdits::steps) {
+            Ok(steps) => steps,
+            Err(reason) => {
+                self.stay();
+                let text = format!("{} cannot be edited: {reason}; correct that line first", model.name);
+                return self.reply(DocumentReply::Refused(text));
+            }
+        };
         let Some(scene) = self.scene_for_model() else { return };
-        let unfit = kept.map(|kept| apply_kept(&mut open, kept)).unwrap_or_default();
+        let unfit = apply_kept(&mut open, steps);
         open.edited.mark_kept();
         open.look();
         let has_steps = open.edited.steps().1 > 0;
@@ -104,7 +113,10 @@ impl Document {
             self.begin_journal();
         }
         if !unfit.is_empty() {
-            let text = format!("Edits of {file} do not fit it: {}", unfit.join("; "));
+            let text = format!(
+                "Edits of {file} do not fit it, and are removed from the project once the model is edited or saved: {}",
+                unfit.join("; ")
+            );
             self.reply(DocumentReply::Warning(text));
         }
         self.report_trouble();
@@ -258,21 +270,17 @@ fn source_in(scene: &mut Open, name: &str, document: &Address<JobNews>) -> Scene
     // A change of a text that came just before counts.
     scene.update_scene(document);
     let project = scene.scene.as_ref().and_then(|scene| scene.project());
-    SceneModelSource::of(name, project.map(|project| &**project), scene.edited.adapter().texts())
+    let models = project.map(|project| ProjectModels::of(project));
+    SceneModelSource::of(name, models.as_ref(), scene.edited.adapter().texts())
 }
 
-/// Applies edits that a project keeps as steps. Returns those that do not fit, a sentence for each.
-fn apply_kept(open: &mut Open, kept: &KeptEdits) -> Vec<String> {
-    match parse_lines(&kept.text) {
-        Ok(edits) => {
-            let apply = |(line, edit)| {
-                let error = open.edited.ask(edit, None).err()?;
-                Some(format!("line {line}: {error}"))
-            };
-            edits.into_iter().filter_map(apply).collect()
-        }
-        Err(error) => vec![error.to_string()],
-    }
+/// Applies edits that a project keeps, each with its line, as steps. Returns those that do not fit, a sentence for each.
+fn apply_kept(open: &mut Open, edits: Vec<(usize, Edit)>) -> Vec<String> {
+    let apply = |(line, edit)| {
+        let error = open.edited.ask(edit, None).err()?;
+        Some(format!("line {line}: {error}"))
+    };
+    edits.into_iter().filter_map(apply).collect()
 }
 
 /// Gives the project of a scene exactly these edits of a model.

@@ -38,6 +38,11 @@ pub trait FaultPlan: Debug + Send + Sync {
     fn pauses(&self) -> bool {
         true
     }
+
+    /// Returns whether the job that reads a file cannot be started, as if the system had no threads left. Called in the document thread.
+    fn refuses_read(&self) -> bool {
+        false
+    }
 }
 
 /// The faults to inject into one run of the program; none by default.
@@ -65,5 +70,10 @@ impl FaultInjection {
     /// Calls [`FaultPlan::pauses`].
     pub fn pauses(&self) -> bool {
         self.0.as_ref().is_none_or(|plan| plan.pauses())
+    }
+
+    /// Calls [`FaultPlan::refuses_read`].
+    pub fn refuses_read(&self) -> bool {
+        self.0.as_ref().is_some_and(|plan| plan.refuses_read())
     }
 }

@@ -206,7 +206,7 @@ impl JournalWriter {
         };
         // The creation is tried once in a gesture, not with each movement of the mouse.
         let goes_on = gesture.is_some() && self.gesture.map(|(own, _)| own) == gesture;
-        // Nor during a save, which would need another snapshot then.
+        // Nor during a save, which would need another snapshot then: it has tried when it began.
         let waits = self.is_overdue && (goes_on || self.save.is_some());
         if !waits && self.begin(now) {
             return true;
@@ -269,9 +269,14 @@ impl JournalWriter {
         }
     }
 
-    /// Tries again to create a journal that could not be created before.
+    /// Returns whether there is no journal, and the one that is wanted is to begin with a snapshot.
+    pub(super) fn lacks_steps(&self) -> bool {
+        self.journal.is_none() && self.wanted.is_some() && (self.is_overdue || self.has_steps)
+    }
+
+    /// Creates the wanted journal before a snapshot that it is to begin with, also after an attempt that failed.
     pub(super) fn begin_overdue(&mut self, now: Instant) {
-        if self.is_overdue {
+        if self.lacks_steps() {
             self.begin(now);
         }
     }

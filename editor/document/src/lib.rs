@@ -56,6 +56,7 @@ mod pose_files;
 mod pose_library;
 pub mod posing;
 mod project_edits;
+mod project_models;
 pub mod protocol;
 mod rebase;
 mod rebasing;

@@ -51,6 +51,5 @@ fn renamed(tree: &ScriptTree, old: &str, new: &str) -> Option<TextSplices> {
         .filter(|(_, own)| !own.is_shared && own.row.name == "path" && own.value("line") == Some(old));
     let splices: Option<Vec<TextSplices>> =
         paths.map(|(element, _)| set_attribute(tree, element, "line", new)).collect();
-    let list: Vec<_> = splices?.iter().flat_map(|splices| splices.list().to_vec()).collect();
-    TextSplices::new(list).filter(|splices| !splices.list().is_empty())
+    TextSplices::joined(splices?).filter(|splices| !splices.list().is_empty())
 }

@@ -100,6 +100,15 @@ pub(super) fn load_inside(
 }
 
 impl OpenedModel {
+    /// Returns a model that the caller read from `bytes`, the contents of `source`. It is saved as one that was opened here; files next
+    /// to it are not read.
+    pub fn of_bytes(loaded: LoadedModel, source: &Source, bytes: Vec<u8>) -> Self {
+        let stamp = source.path().and_then(|path| FileStamp::take(&RealFiles, path).ok());
+        let stamp = stamp.filter(|stamp| stamp.is_of(&bytes));
+        let editable = Editable::of(source, bytes, stamp, &loaded, None);
+        Self { loaded, editable, texts: TextFiles::default() }
+    }
+
     /// Returns its unchanged takes and texts.
     pub(super) fn adapter(&self) -> ModelAdapter {
         ModelAdapter::of(&self.loaded.model).with_texts(self.texts.clone())

@@ -61,6 +61,8 @@ pub(super) struct Open {
     pub(super) unwanted: bool,
     /// Whether the user decided to replace the whole file.
     pub(super) is_rewritten: bool,
+    /// Content of the model that the last save of the file did not store, one sentence each.
+    pub(super) lost: Vec<String>,
 }
 
 impl Open {
@@ -86,6 +88,7 @@ impl Open {
             journal_writer: JournalWriter::new(autosave),
             unwanted: false,
             is_rewritten: false,
+            lost: Vec::new(),
         };
         open.look();
         open

@@ -3,6 +3,7 @@
 use super::Folder;
 use super::adapter::{TextFile, TextFiles};
 use super::job::JobNews;
+use super::project_models::ProjectModels;
 use super::scene_lines::SceneLines;
 use super::scene_model_source::SceneModelSource;
 use super::scene_models::{SceneModelNews, SceneModels};
@@ -12,7 +13,7 @@ use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptError, ScriptTree, StageScript};
 use dragonfly_anim::stage::{LiveStage, StageAssets};
 use dragonfly_runtime::Address;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -84,7 +85,9 @@ impl OpenScene {
         let Some(TextFile { name, text }) = self.script_of(texts) else { return };
         self.lines.update(self.project.as_deref(), texts, &mut self.assets);
         self.live.update_of(Arc::clone(&text), self.project.as_deref(), &self.assets);
-        let wanted = self.wanted(texts);
+        let project = self.project.clone();
+        let models = project.as_deref().map(ProjectModels::of);
+        let wanted = self.wanted(models.as_ref(), texts);
         self.models.want(wanted, document);
         self.view = Arc::new(SceneView {
             text,
@@ -92,7 +95,7 @@ impl OpenScene {
             texts: texts.clone(),
             project: self.project.clone(),
             project_errors: self.project_errors.as_slice().into(),
-            project_notes: self.project_notes(texts).into(),
+            project_notes: self.project_notes(models.as_ref()).into(),
             lines: self.lines.lines.clone(),
             line_errors: Arc::clone(&self.lines.errors),
             script: self.live.script().cloned(),
@@ -174,9 +177,13 @@ impl OpenScene {
     }
 
     /// Returns the models that the script names, each with its source.
-    fn wanted(&self, texts: &TextFiles) -> BTreeMap<String, SceneModelSource> {
+    fn wanted(
+        &self,
+        models: Option<&ProjectModels<'_>>,
+        texts: &TextFiles,
+    ) -> BTreeMap<String, SceneModelSource> {
         let Some(script) = self.live.script() else { return BTreeMap::new() };
-        let source = |name: &str| SceneModelSource::of(name, self.project.as_deref(), texts);
+        let source = |name: &str| SceneModelSource::of(name, models, texts);
         names(script).map(|name| (name.to_owned(), source(name))).collect()
     }
 
@@ -201,26 +208,28 @@ impl OpenScene {
         notes
     }
 
-    /// Returns what the user should know about the models of the project: files that changed, edits that are not applied.
-    fn project_notes(&self, texts: &TextFiles) -> Vec<ScriptError> {
-        let Some(project) = &self.project else { return Vec::new() };
-        let mut notes = Vec::new();
-        for model in project.elements_called("model") {
-            let Some(id) = model.value("id") else { continue };
-            let source = SceneModelSource::of(id, Some(project), texts);
-            let Some(file) = self.models.file(&source) else { continue };
+    /// Returns what the user should know about the models of the project that the script names: files that changed, edits that are not
+    /// applied.
+    fn project_notes(&self, models: Option<&ProjectModels<'_>>) -> Vec<ScriptError> {
+        let Some((project, models)) = self.project.as_ref().zip(models) else { return Vec::new() };
+        let (mut notes, mut known) = (Vec::new(), HashSet::new());
+        for (name, source, file) in self.models.read() {
+            // A script may mean one model by its id and by its file.
+            let Some(model) = models.model(name).filter(|model| known.insert(model.range.start)) else {
+                continue;
+            };
             let edits = source.edits.as_ref();
             let is_other = edits.is_some_and(|edits| !edits.are_of(file.hash));
             let now = format!("{:016x}", file.hash);
             if model.value("hash").is_some_and(|old| old != now) && !is_other {
+                let id = model.value("id").unwrap_or(name);
                 let message =
                     format!("the file of \"{id}\" changed since it was used last: its hash is {now}");
                 let help = "look at its takes; it is noted with the next edits of the model";
                 notes.push(note(project.tree(), model.value_range("hash"), message, help));
             }
             let Some(unfit) = &file.unfit else { continue };
-            let element = project.elements_called("edits").find(|edits| edits.value("of") == Some(id));
-            let (range, help) = match (is_other, element) {
+            let (range, help) = match (is_other, models.edits_of(model)) {
                 (true, _) => (model.value_range("hash"), OTHER_FILE),
                 (false, Some(edits)) => (edits.value_range("src"), ""),
                 (false, None) => (model.name.clone(), ""),

@@ -1,5 +1,6 @@
 //! The document thread: owns the open document, loads models in jobs, publishes the newest view, writes the journal.
 
+use super::checking::TakeChecking;
 use super::export::ExportQuestions;
 use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
@@ -65,8 +66,7 @@ pub struct Document {
     /// The job that imports takes; dropping it cancels it.
     pub(super) clip_import: Option<Job>,
     pub(super) export_questions: ExportQuestions,
-    /// The check of a take; dropping it cancels it.
-    pub(super) checking: Option<Job>,
+    pub(super) checking: TakeChecking,
     /// The job that reads a file to compare with; dropping it cancels it.
     pub(super) comparing: Option<Job>,
     /// Orders for the pose library.
@@ -157,7 +157,7 @@ impl Document {
                 retargeting: Retargeting::default(),
                 clip_import: None,
                 export_questions: ExportQuestions::default(),
-                checking: None,
+                checking: TakeChecking::default(),
                 comparing: None,
                 pose_files: PoseFiles::default(),
                 autosave: setup.autosave.clone(),
@@ -222,12 +222,20 @@ impl Document {
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
         let ticket = self.next_ticket();
         self.job = None;
-        match start_loading(&self.own, ticket, source.clone(), self.load) {
+        let started = match self.faults.refuses_read() {
+            true => Err(std::io::Error::other("injected fault")),
+            false => start_loading(&self.own, ticket, source.clone(), self.load),
+        };
+        match started {
             Ok(job) => {
                 let (gets_edits, of_scene) = (false, None);
                 self.job = Some(LoadingModel { _job: job, ticket, source, offer, gets_edits, of_scene });
             }
-            Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
+            Err(error) => {
+                self.stay();
+                self.reply(DocumentReply::Failed { source, reason: error.to_string() });
+                self.offer_late();
+            }
         }
     }
 

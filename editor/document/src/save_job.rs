@@ -53,6 +53,8 @@ pub(super) struct PreparedSave {
     /// All files, the model last.
     files: Vec<WrittenFile>,
     changes: Option<ChangeReport>,
+    /// Content of the model that the format does not store, one sentence each.
+    lost: Vec<String>,
     /// Contents of the main file; `None` where it stays as it is.
     main: Option<FileContents>,
     journal: Option<Result<SuccessorJournal, JournalError>>,
@@ -72,6 +74,8 @@ pub(super) struct WrittenSave {
     /// The file as it is now.
     pub(super) editable: Editable,
     pub(super) saved: FilesSaved,
+    /// Content of the model that the format does not store, one sentence each.
+    pub(super) lost: Vec<String>,
     pub(super) path: PathBuf,
     pub(super) target: SaveTarget,
     /// The journal of another file that becomes the file of the document, where work is recorded.
@@ -97,7 +101,8 @@ pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, String> {
         }
         None => None,
     };
-    Ok(PreparedSave { input, files, changes: plan.changes, main, journal })
+    let lost = plan.lost.iter().map(ToString::to_string).collect();
+    Ok(PreparedSave { input, files, changes: plan.changes, lost, main, journal })
 }
 
 impl SaveInput {
@@ -132,6 +137,11 @@ impl PreparedSave {
         self.changes.as_ref()
     }
 
+    /// Returns the content of the model that the format does not store, one sentence each.
+    pub(super) fn lost(&self) -> &[String] {
+        &self.lost
+    }
+
     /// Returns the contents that the main file gets; `None` where it stays as it is.
     pub(super) fn main_file(&self) -> Option<FileContents> {
         self.main
@@ -147,7 +157,7 @@ impl PreparedSave {
     /// # Errors
     /// The reason why it was not saved, and what was written before.
     pub(super) fn write(self) -> Result<WrittenSave, FailedWrite> {
-        let Self { mut input, files, .. } = self;
+        let Self { mut input, files, lost, .. } = self;
         input.faults.reach(FaultPoint::WriteSave);
         let target = input.target;
         let versions = input.autosave.as_ref().map(Autosave::versions);
@@ -161,6 +171,6 @@ impl PreparedSave {
             }
         };
         let journal = if target == SaveTarget::Other { input.begin_journal() } else { None };
-        Ok(WrittenSave { editable: input.editable, saved, path: input.output, target, journal })
+        Ok(WrittenSave { editable: input.editable, saved, lost, path: input.output, target, journal })
     }
 }

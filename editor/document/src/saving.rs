@@ -65,7 +65,8 @@ pub struct SavedFile {
     pub beside: usize,
     /// Whether it is a copy: the document is as unsaved as before.
     pub copy: bool,
-    /// Attributes of the old file that were lost, one sentence each.
+    /// Attributes of the old file that were lost, and content of the model that the format does not store, one sentence each. Later saves
+    /// of the same file do not repeat the latter.
     pub notices: Vec<String>,
     /// The action that follows.
     pub then: Option<Then>,
@@ -148,10 +149,6 @@ impl Open {
                 with_ending(path, &editable.ending()).map_err(NotSaved::Failed)?
             }
         };
-        self.is_rewritten |= order.rewrite;
-        if editable.format().is_some_and(|format| format.is_rewritten()) && !self.is_rewritten {
-            return Err(NotSaved::Rewritten);
-        }
         let own = self.file.path.is_some() && editable.is_own(&output);
         if own && copy {
             return Err(NotSaved::Failed("A copy of a file cannot be the file itself".to_owned()));
@@ -168,6 +165,14 @@ impl Open {
                 "{} is edited for {}, which plays this file; save a copy instead",
                 self.file.title, scene.open.file.title
             )));
+        }
+        if target != SaveTarget::Copy {
+            // A copy replaces nothing, so that the user decided nothing about the file of the document.
+            self.is_rewritten |= order.rewrite;
+            let is_whole = editable.format().is_some_and(|format| format.is_rewritten());
+            if is_whole && !self.is_rewritten && !editable.is_unedited(self.edited.adapter()) {
+                return Err(NotSaved::Rewritten);
+            }
         }
         let overwrite = match &order.to {
             SaveTo::Own if order.anyway => Overwrite::Anything,
@@ -203,6 +208,10 @@ impl Open {
             None
         } else {
             self.edited.begin_save();
+            // Created during the save, it would have neither the takes of the old file nor the record of the save.
+            if self.journal_writer.lacks_steps() {
+                self.snapshot(false, now);
+            }
             self.journal_writer.begin_save(now)
         };
         Ok(SaveInput {
@@ -245,12 +254,16 @@ impl Open {
         autosave: Option<&Autosave>,
         now: Instant,
     ) -> SavedFile {
-        let WrittenSave { editable, saved, path, target, journal } = written;
+        let WrittenSave { editable, saved, lost, path, target, journal } = written;
         let copy = target == SaveTarget::Copy;
+        let mut notices = saved.notices;
+        let is_known = |text: &&String| target == SaveTarget::Own && self.lost.contains(text);
+        notices.extend(lost.iter().filter(|text| !is_known(text)).cloned());
         if !copy {
             self.edited.end_save(true);
         }
         if !copy {
+            self.lost = lost;
             let stamp = editable.stamp().copied();
             self.base = Some(self.base());
             self.editable = Ok(editable);
@@ -263,8 +276,8 @@ impl Open {
             }
             self.look();
         }
-        let beside = saved.files.len().saturating_sub(1);
-        SavedFile { path, bytes: saved.bytes, beside, copy, notices: saved.notices, then: None }
+        let beside = saved.files.iter().filter(|file| **file != path).count();
+        SavedFile { path, bytes: saved.bytes, beside, copy, notices, then: None }
     }
 
     /// Makes `path` the file of the document, and `journal` its journal.

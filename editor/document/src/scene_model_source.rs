@@ -2,15 +2,15 @@
 
 use super::adapter::{ModelAdapter, TextFiles};
 use super::beside::BesideStamps;
-use super::edit::parse_lines;
+use super::edit::{Edit, parse_lines};
 use super::load::load_inside;
+use super::project_models::ProjectModels;
 use super::source::LoadError;
 use super::{Folder, LoadedModel};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::{Conventions, Handedness, UpAxis};
 use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_anim::stage::StageModel;
-use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptElement;
 use dragonfly_runtime::CancelFlag;
 use std::sync::Arc;
@@ -32,6 +32,8 @@ pub(super) struct SceneModelSource {
 /// Edits of a model that a project keeps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct KeptEdits {
+    /// Their file, relative to the folder of the project.
+    pub(super) file: Arc<str>,
     /// The edits, one a line.
     pub(super) text: Arc<str>,
     /// Hash of the file for which they were made; `None` where the project does not state it.
@@ -67,6 +69,15 @@ impl KeptEdits {
         self.is_empty() || self.hash.is_none_or(|own| own == hash)
     }
 
+    /// Returns them, each with the number of its line.
+    ///
+    /// # Errors
+    ///
+    /// The file and the first line that is not an edit, for example one of a newer version.
+    pub(super) fn steps(&self) -> Result<Vec<(usize, Edit)>, String> {
+        parse_lines(&self.text).map_err(|error| format!("{}: {error}", self.file))
+    }
+
     /// Returns whether there are none.
     pub(super) fn is_empty(&self) -> bool {
         self.text.trim().is_empty()
@@ -75,20 +86,21 @@ impl KeptEdits {
 
 impl SceneModelSource {
     /// Returns what a script means by `name`: a model of `project`, with its edits among `texts`, or else the file itself.
-    pub(super) fn of(name: &str, project: Option<&StageProject>, texts: &TextFiles) -> Self {
-        let element = project.and_then(|project| {
-            let id = project.model_id(name)?;
-            project.element_with_id("model", id)
-        });
-        let Some((project, element)) = project.zip(element) else {
+    pub(super) fn of(name: &str, project: Option<&ProjectModels<'_>>, texts: &TextFiles) -> Self {
+        let found = project.and_then(|project| Some((project, project.model(name)?)));
+        let Some((project, element)) = found else {
             return Self { file: name.to_owned(), ..Self::default() };
         };
         let hash = element.value("hash").and_then(|hash| u64::from_str_radix(hash, 16).ok());
-        let edits = project.edits_of(name).and_then(|name| texts.called(name));
+        let edits = project.edits_of(element).and_then(|edits| texts.called(edits.value("src")?));
         Self {
-            file: project.source_of(name).to_owned(),
+            file: element.value("src").unwrap_or(name).to_owned(),
             conventions: conventions(element),
-            edits: edits.map(|file| KeptEdits { text: Arc::clone(&file.text), hash }),
+            edits: edits.map(|file| KeptEdits {
+                file: Arc::clone(&file.name),
+                text: Arc::clone(&file.text),
+                hash,
+            }),
         }
     }
 

@@ -67,10 +67,12 @@ impl SceneModels {
         &self.models
     }
 
-    /// Returns the state of the file of a model that was read, whatever the name by which the script means it.
-    pub(super) fn file(&self, source: &SceneModelSource) -> Option<&ReadFileState> {
-        let (name, _) = self.tried.iter().find(|(_, own)| *own == source)?;
-        self.files.get(name)
+    /// Returns the models that the script names and that were read from there: the name, the source, and the state of the file.
+    pub(super) fn read(&self) -> impl Iterator<Item = (&str, &SceneModelSource, &ReadFileState)> {
+        self.wanted.iter().filter_map(|(name, source)| {
+            let file = self.files.get(name)?;
+            (self.tried.get(name) == Some(source)).then_some((&**name, source, file))
+        })
     }
 
     /// Reads all models again, from another folder.

@@ -1,6 +1,7 @@
 //! Scripts of scenes from files, with the models that they name.
 
 use super::adapter::TextFiles;
+use super::project_models::ProjectModels;
 use super::scene_lines::SceneLines;
 use super::scene_model_source::SceneModelSource;
 use super::scene_view::{SceneModel, SceneView};
@@ -127,6 +128,7 @@ fn load_assets(
     cancel: &Cancel,
 ) -> Result<Result<SceneAssets, Vec<ScriptError>>, SceneLoadError> {
     let (mut found, mut errors) = (SceneAssets::default(), Vec::new());
+    let named = project.map(ProjectModels::of);
     for source in script.things().filter_map(|thing| thing.attribute("model")) {
         if cancel.is_cancelled() {
             return Err(SceneLoadError::Cancelled);
@@ -134,7 +136,7 @@ fn load_assets(
         if found.assets.model(&source.value).is_some() {
             continue;
         }
-        let origin = SceneModelSource::of(&source.value, project, texts);
+        let origin = SceneModelSource::of(&source.value, named.as_ref(), texts);
         match origin.read(folder, cancel) {
             Ok(read) => {
                 found.warnings.extend(read.state.unfit);

@@ -26,6 +26,8 @@ pub struct CheckedTake {
     pub take: Arc<Take>,
     /// The defects, those of one rule together.
     pub findings: Vec<LintFinding>,
+    /// A sentence about thresholds that the model has no use for.
+    pub warning: Option<String>,
 }
 
 impl TakeCheck {
@@ -36,8 +38,12 @@ impl TakeCheck {
     /// The reason why the take cannot be checked, or what is wrong with the thresholds.
     pub fn run(&self, model: Option<&Path>) -> Result<CheckedTake, String> {
         let thresholds = model.map_or_else(|| Ok(TakeThresholds::default()), TakeThresholds::of_model)?;
+        let warning = thresholds.unknown_joints(&self.skeleton).zip(model).map(|(text, model)| {
+            let path = TakeThresholds::beside(model);
+            format!("{}: {text}", path.display())
+        });
         let findings =
             thresholds.with_unit(self.meters_per_unit).check(&self.take, &self.skeleton, self.rate)?;
-        Ok(CheckedTake { take: Arc::clone(&self.take), findings })
+        Ok(CheckedTake { take: Arc::clone(&self.take), findings, warning })
     }
 }

@@ -19,12 +19,16 @@ use dragonfly_anim::motion::Axis;
 use glam::Vec3;
 use serde::Deserialize;
 use serde_json::{Map, Value};
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use crate::adapter::stored_contacts;
 
 /// The largest file that is read, bytes.
 const MOST_BYTES: u64 = 4 << 20;
+
+/// Number of unknown bones that a message names.
+const NAMED: usize = 3;
 
 /// Thresholds for the check of takes.
 #[derive(Clone, Debug, Default)]
@@ -128,27 +132,41 @@ impl TakeThresholds {
     }
 
     /// Returns the defects of a take, sampled at `rate` frames per second unless the thresholds have a rate. The contacts stored
-    /// with the take are used for foot slide.
+    /// with the take are used for foot slide. Limits of joints whose bones the skeleton does not have are left out, see
+    /// [`Self::unknown_joints`].
     ///
     /// # Errors
     ///
-    /// The reason why the take cannot be checked: a joint of a bone that is missing, or a rate.
+    /// The reason why the take cannot be checked: a rate.
     pub fn check(&self, take: &Take, skeleton: &Skeleton, rate: f32) -> Result<Vec<LintFinding>, String> {
         let mut limits = self.limits.clone();
         limits.given = stored_contacts(&take.extras, skeleton);
         limits.contacts.meters_per_unit = self.unit_of(skeleton);
-        for (name, limit) in &self.joints {
-            let named = skeleton.bones.iter().enumerate().filter(|(_, bone)| bone.name == *name);
-            let mut found = named.peekable();
-            if found.peek().is_none() {
-                return Err(format!("\"joints\" has a bone {name:?} that the model does not have"));
-            }
-            for (bone, _) in found {
-                limits.joints.set(bone as BoneIndex, *limit);
+        if !self.joints.is_empty() {
+            let joints: HashMap<&str, JointLimit> =
+                self.joints.iter().map(|(name, limit)| (name.as_str(), *limit)).collect();
+            for (bone, own) in skeleton.bones.iter().enumerate() {
+                if let Some(limit) = joints.get(own.name.as_str()) {
+                    limits.joints.set(bone as BoneIndex, *limit);
+                }
             }
         }
         let rate = self.rate.unwrap_or(rate);
         lint_take(take, skeleton, rate, &limits).map_err(|error| error.to_string())
+    }
+
+    /// Returns a sentence about the limits of joints whose bones a skeleton does not have; `None` where it has all of them.
+    pub fn unknown_joints(&self, skeleton: &Skeleton) -> Option<String> {
+        let known: HashSet<&str> = skeleton.bones.iter().map(|bone| bone.name.as_str()).collect();
+        let mut unknown = self.joints.iter().filter(|(name, _)| !known.contains(name.as_str()));
+        let named: Vec<String> = unknown.by_ref().take(NAMED).map(|(name, _)| format!("{name:?}")).collect();
+        let more = match unknown.count() {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        let names = named.join(", ");
+        (!named.is_empty())
+            .then(|| format!("\"joints\" names bones that the model does not have: {names}{more}"))
     }
 
     fn of(value: &Value) -> Result<Self, String> {
@@ -202,31 +220,51 @@ fn joints(value: &Value) -> Result<Vec<(String, JointLimit)>, String> {
     let object = if value.is_null() { Some(&none) } else { value.as_object() };
     let object = object.ok_or("\"joints\" has to be an object with the limit of each bone")?;
     let joint = |(name, value): (&String, &Value)| {
-        let text =
-            JointText::deserialize(value).map_err(|error| format!("the joint of {name:?}: {error}"))?;
-        let limit = text.limit().ok_or_else(|| format!("the joint of {name:?}: an axis has no direction"))?;
-        Ok((name.clone(), limit))
+        let limit =
+            JointText::deserialize(value).map_err(|error| error.to_string()).and_then(JointText::limit);
+        Ok((name.clone(), limit.map_err(|reason| format!("the joint of {name:?}: {reason}"))?))
     };
     object.iter().map(joint).collect()
 }
 
+/// Returns a range of angles, given in degrees.
+fn range([min, max]: [f32; 2]) -> Result<AngleRange, String> {
+    if min > max {
+        return Err(format!("the range [{min}, {max}] ends before it begins"));
+    }
+    Ok(AngleRange::degrees(finite(min)?, finite(max)?))
+}
+
+/// Returns a range of angles, given in degrees; all angles where there is none.
+fn range_or_free(angles: Option<[f32; 2]>) -> Result<AngleRange, String> {
+    angles.map_or(Ok(AngleRange::FREE), range)
+}
+
+/// Returns the number, unless it was too large for single precision.
+fn finite(number: f32) -> Result<f32, String> {
+    if number.is_finite() { Ok(number) } else { Err("a number is too large".to_owned()) }
+}
+
 impl JointText {
-    /// Returns the limit; `None` where an axis has no direction.
-    fn limit(self) -> Option<JointLimit> {
-        let range = |[min, max]: [f32; 2]| AngleRange::degrees(min, max);
-        Some(match self {
+    /// Returns the limit.
+    ///
+    /// # Errors
+    ///
+    /// The reason why no joint can have it: an axis without a direction, a range or a swing that is none.
+    fn limit(self) -> Result<JointLimit, String> {
+        Ok(match self {
             Self::Hinge { axis, range: angles } => {
-                JointLimit::Hinge(Hinge { axis: axis.direction()?, range: range(angles) })
+                JointLimit::Hinge(Hinge { axis: axis.direction()?, range: range(angles)? })
             }
             Self::Ball { axis, side, swing, twist } => {
-                let side = side.map_or(Some(Vec3::ZERO), AxisText::direction)?;
-                let [swing_side, swing_up] = swing.angles().map(f32::to_radians);
-                let twist = twist.map_or(AngleRange::FREE, range);
-                JointLimit::Ball(Ball { axis: axis.direction()?, side, swing_side, swing_up, twist })
+                let side = side.map_or(Ok(Vec3::ZERO), AxisText::direction)?;
+                let [swing_side, swing_up] = swing.angles()?.map(f32::to_radians);
+                let (axis, twist) = (axis.direction()?, range_or_free(twist)?);
+                JointLimit::Ball(Ball { axis, side, swing_side, swing_up, twist })
             }
             Self::Euler { order, x, y, z } => {
                 let order = order.map_or(EulerOrder::Xyz, OrderText::order);
-                let ranges = [x, y, z].map(|angles| angles.map_or(AngleRange::FREE, range));
+                let ranges = [range_or_free(x)?, range_or_free(y)?, range_or_free(z)?];
                 JointLimit::Euler(Euler { order, ranges })
             }
         })
@@ -234,24 +272,36 @@ impl JointText {
 }
 
 impl AxisText {
-    /// Returns the direction; `None` where it has none.
-    fn direction(self) -> Option<Vec3> {
+    /// Returns the direction.
+    ///
+    /// # Errors
+    ///
+    /// It has none.
+    fn direction(self) -> Result<Vec3, String> {
         let direction = match self {
             Self::Letter(LetterText::X) => Vec3::X,
             Self::Letter(LetterText::Y) => Vec3::Y,
             Self::Letter(LetterText::Z) => Vec3::Z,
             Self::Direction(direction) => Vec3::from_array(direction),
         };
-        direction.try_normalize()
+        direction.try_normalize().ok_or_else(|| "an axis has no direction".to_owned())
     }
 }
 
 impl SwingText {
     /// Returns the angles about the side and across it, degrees.
-    fn angles(self) -> [f32; 2] {
-        match self {
+    ///
+    /// # Errors
+    ///
+    /// One of them is below zero or too large.
+    fn angles(self) -> Result<[f32; 2], String> {
+        let angles = match self {
             Self::Round(angle) => [angle; 2],
             Self::Elliptic(angles) => angles,
+        };
+        match angles.into_iter().find(|angle| *angle < 0.0) {
+            Some(angle) => Err(format!("the swing {angle} is below 0")),
+            None => Ok([finite(angles[0])?, finite(angles[1])?]),
         }
     }
 }

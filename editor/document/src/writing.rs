@@ -18,7 +18,7 @@ pub(super) enum Overwrite {
 /// Options of a save.
 pub(super) struct Writing<'a> {
     pub(super) overwrite: Overwrite,
-    /// Files that are replaced whatever they contain: the user has decided.
+    /// Files that the document has not read, and that are replaced whatever they contain: the user has decided.
     pub(super) replaces: &'a [PathBuf],
     /// The folder for old versions of the file.
     pub(super) versions: Option<&'a Versions>,
@@ -29,7 +29,7 @@ pub(super) struct Writing<'a> {
 /// The files that a save has written.
 #[derive(Debug, Default)]
 pub(super) struct FilesSaved {
-    /// Their paths, the file itself last.
+    /// Their paths, the file itself last where it was written.
     pub(super) files: Vec<PathBuf>,
     /// Size of the file itself.
     pub(super) bytes: usize,

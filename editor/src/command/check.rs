@@ -135,6 +135,7 @@ impl CheckReport {
         }
         let loaded = load_checked(&source(file))?;
         let takes = thresholds.map(|thresholds| defects(&loaded.model.animation, thresholds)).transpose()?;
+        let unknown = thresholds.and_then(|own| own.unknown_joints(&loaded.model.animation.skeleton));
         let mut report = Self {
             file: loaded.title,
             errors: 0,
@@ -146,6 +147,10 @@ impl CheckReport {
             meters_per_unit: thresholds
                 .map(|thresholds| thresholds.unit_of(&loaded.model.animation.skeleton)),
         };
+        if let Some(text) = unknown {
+            let row = FindingRow { severity: "", rule: "JOINTS", place: String::new(), text };
+            report.add(deny, Severity::Warning, row);
+        }
         let imported = loaded.warnings.into_iter().chain(loaded.notes);
         for text in imported {
             report.add(

@@ -3,7 +3,6 @@
 use super::import_options::ImportArguments;
 use super::{Failure, progress::Teller};
 use dragonfly_anim::data::{ModelData, Take};
-use dragonfly_anim::format::Conventions;
 use dragonfly_document::{Cancel, LoadedModel, Source, formats, is_scene, load_model};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -31,14 +30,25 @@ pub(super) struct File {
 }
 
 impl File {
-    /// Returns the path if it is one of a scene's script.
-    pub(super) fn script(&self) -> Option<&std::path::Path> {
-        Some(self.path.as_path()).filter(|path| is_scene(path))
-    }
-
-    /// Returns whether the user chose units, axes or a frame rate.
-    pub(super) fn has_conventions(&self) -> bool {
-        self.import.conventions() != Conventions::default()
+    /// Returns the path if it is that of a scene: of its script or its project.
+    ///
+    /// # Errors
+    ///
+    /// The options that were given although only models have them.
+    pub(super) fn scene(&self, take: &TakeChoice) -> Result<Option<&std::path::Path>, Failure> {
+        if !is_scene(&self.path) {
+            return Ok(None);
+        }
+        if take.take.is_some() {
+            return Err(Failure::input("--take", "a scene has no takes; its script says what plays"));
+        }
+        // Each option is followed by its value.
+        let given: Vec<String> = self.import.to_arguments().into_iter().step_by(2).collect();
+        if !given.is_empty() {
+            let reason = "these options are for a model file; a scene does not use them";
+            return Err(Failure::input(given.join(", "), reason));
+        }
+        Ok(Some(&self.path))
     }
 
     /// Loads the model, with progress on stderr if that takes long.
@@ -88,11 +98,6 @@ pub(super) struct TakeChoice {
 }
 
 impl TakeChoice {
-    /// Returns whether the user named a take.
-    pub(super) fn is_chosen(&self) -> bool {
-        self.take.is_some()
-    }
-
     /// Returns the index of the take; `None` for the rest pose of a model without takes.
     pub(super) fn index(&self, title: &str, model: &ModelData) -> Result<Option<usize>, Failure> {
         let takes = &model.animation.takes;

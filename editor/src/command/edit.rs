@@ -145,8 +145,9 @@ impl EditArguments {
         if self.json && !to_stdout {
             let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok());
             let unfit = unfit.iter().map(|edit| UnfitLine { line: edit.number, edit }).collect();
+            let lost = plan.lost.iter().map(ToString::to_string).collect();
             let file = title.to_owned();
-            return print_json(&EditReport { file, edits, changes, written, removed, unfit });
+            return print_json(&EditReport { file, edits, changes, lost, written, removed, unfit });
         }
         if self.dry_run {
             return print(|out| write!(out, "{plan}"));
@@ -167,6 +168,9 @@ struct EditReport<'a> {
     edits: usize,
     /// Null if the whole file is written.
     changes: Option<serde_json::Value>,
+    /// Content of the model that the format does not store.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    lost: Vec<String>,
     written: Vec<Written>,
     /// Buffer files of earlier saves that nothing used any more.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -239,7 +243,7 @@ fn unused_of(output: &Path) -> Result<Vec<String>, Failure> {
     Ok(written.remove_unused().iter().map(|path| path.display().to_string()).collect())
 }
 
-/// Writes the files of the plan. Returns their paths and sizes.
+/// Writes the files of the plan, and reports what of the model the format does not store. Returns their paths and sizes.
 pub(super) fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
     if output == Path::new("-") && editable.needs_others(plan) {
         return Err(Failure::input("-", "the model consists of several files; give -o the path of a file"));
@@ -255,5 +259,6 @@ pub(super) fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Resul
         write_file(path, bytes)?;
         written.push(Written { path: path.display().to_string(), bytes: bytes.len() });
     }
+    plan.lost.iter().for_each(|lost| tell(format_args!("not saved: {lost}")));
     Ok(written)
 }

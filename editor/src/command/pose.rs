@@ -81,7 +81,7 @@ impl RunCommand for PoseArguments {
 impl PoseArguments {
     /// Prints the poses of a thing of a scene.
     fn role(&self, role: &str) -> Result<(), Failure> {
-        let Some(script) = self.file.script() else {
+        let Some(script) = self.file.scene(&self.take)? else {
             return Err(Failure::input("--role", "FILE has to be a scene (.xml) or a project (.meproj)"));
         };
         let poses = RolePoses::of(&scene::load(script)?, role, &self.time)?;

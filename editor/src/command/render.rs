@@ -92,16 +92,7 @@ pub(super) const USUAL_SIZE: [u32; 2] = [1280, 720];
 impl RunCommand for RenderArguments {
     fn run(self) -> Result<(), Failure> {
         quiet::about_wayland();
-        if let Some(script) = self.file.script() {
-            if self.take.is_chosen() {
-                return Err(Failure::input("--take", "a scene has no takes; its script says what plays"));
-            }
-            if self.file.has_conventions() {
-                return Err(Failure::input(
-                    "--scale, --up, --hand, --rate",
-                    "the project says how its models are read",
-                ));
-            }
+        if let Some(script) = self.file.scene(&self.take)? {
             let order = scene::RenderOrder {
                 time: self.time.unwrap_or(0.0),
                 frames: self.frames,

@@ -3,6 +3,7 @@
 use crate::Folder;
 use crate::adapter::{ModelAdapter, TextFiles};
 use crate::edit::TextRef;
+use crate::project_models::ProjectModels;
 use crate::scene_lines::SceneLines;
 use crate::scene_model_source::SceneModelSource;
 use crate::text_source::is_project;
@@ -162,13 +163,14 @@ impl SceneAnswers {
         texts: &TextFiles,
     ) -> (Vec<ScriptError>, Vec<String>) {
         let mut errors = Vec::new();
+        let models = project.map(ProjectModels::of);
         let mut tried: BTreeMap<&str, Option<String>> = BTreeMap::new();
         for attribute in script.things().filter_map(|thing| thing.attribute("model")) {
             let name = &*attribute.value;
             if tried.contains_key(name) {
                 continue;
             }
-            let source = SceneModelSource::of(name, project, texts);
+            let source = SceneModelSource::of(name, models.as_ref(), texts);
             if let Some((_, unfit)) = self.read.get(name).filter(|(own, _)| *own == source) {
                 tried.insert(name, unfit.clone());
                 continue;

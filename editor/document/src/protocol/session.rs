@@ -140,7 +140,7 @@ impl Session {
             }
         };
         self.open.record_saving(&mut prepared, now);
-        let changes = changes(prepared.changes());
+        let (changes, lost) = (changes(prepared.changes()), prepared.lost().to_vec());
         let written = match prepared.write() {
             Ok(written) => written,
             Err(FailedWrite { reason, partly }) => {
@@ -151,10 +151,13 @@ impl Session {
         let files = written.saved.files.clone();
         self.open.end_save(written, None, now);
         let mut answer = json!({"written": files, "changes": changes});
+        if !lost.is_empty() {
+            answer["lost"] = json!(lost);
+        }
         // Pending poses are not lost, but they are not in the file.
         let pending = self.open.edited.adapter().pending_poses();
-        if let (1.., Some(answer)) = (pending, answer.as_object_mut()) {
-            answer.insert("pending_not_saved".to_owned(), json!(pending));
+        if pending > 0 {
+            answer["pending_not_saved"] = json!(pending);
         }
         Ok(answer)
     }
