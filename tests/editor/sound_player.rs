@@ -139,6 +139,12 @@ fn without_a_device_the_user_is_told_once_and_only_where_there_are_sounds() {
     window.state_mut().state.say(MessageSeverity::Info, "something else");
     player.update(&mut window.state_mut().state, &address);
     assert_eq!((said(&window.state().state), tries.get()), ("something else".to_owned(), 1));
+    // Another try with the next playback: the device may be there now.
+    for _ in 0..2 {
+        run(&mut window, Id::PlayPause);
+        player.update(&mut window.state_mut().state, &address);
+    }
+    assert_eq!((said(&window.state().state), tries.get()), ("something else".to_owned(), 2));
 }
 
 #[test]

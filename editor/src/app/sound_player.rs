@@ -29,6 +29,8 @@ type OpenOutput = Box<dyn Fn() -> Result<SoundOutput, OutputError>>;
 pub struct SoundPlayer {
     open: OpenOutput,
     output: PlayerOutput,
+    /// Whether the user was told that nothing is heard.
+    is_told: bool,
     /// The samples of each sound; `None` for one that cannot be played.
     samples: BTreeMap<SoundSource, Option<Arc<SoundSamples>>>,
     reading: Option<Job>,
@@ -40,7 +42,7 @@ pub struct SoundPlayer {
 enum PlayerOutput {
     Unopened,
     Open(SoundOutput),
-    /// It does not work, and the user was told so.
+    /// It does not work. It is tried again when something is played the next time.
     Failed,
 }
 
@@ -116,6 +118,7 @@ impl SoundPlayer {
         Self {
             open: Box::new(open),
             output: PlayerOutput::Unopened,
+            is_told: false,
             samples: BTreeMap::new(),
             reading: None,
             played: None,
@@ -132,8 +135,10 @@ impl SoundPlayer {
             self.output = match (self.open)() {
                 Ok(output) => PlayerOutput::Open(output),
                 Err(error) => {
-                    let text = format!("The sounds are shown and not played: {error}");
-                    state.say(MessageSeverity::Info, text);
+                    if !std::mem::replace(&mut self.is_told, true) {
+                        let text = format!("The sounds are shown and not played: {error}");
+                        state.say(MessageSeverity::Info, text);
+                    }
                     PlayerOutput::Failed
                 }
             };
@@ -219,6 +224,9 @@ impl SoundPlayer {
     }
 
     fn stop(&mut self) {
+        if matches!(self.output, PlayerOutput::Failed) {
+            self.output = PlayerOutput::Unopened;
+        }
         if self.played.take().is_some() {
             self.send(OutputCommand::Stop, None);
         }
