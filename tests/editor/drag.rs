@@ -24,10 +24,10 @@ impl Drag {
         Self { wire, own, selection, list }
     }
 
-    /// Takes the pointer, as a program does from which something is dragged: no other one is told of its movements.
+    /// Grabs the pointer, as a program does from which something is dragged: no other program gets its movements.
     pub(crate) fn take_pointer(&mut self) {
         let (root, to_root_alone) = (self.wire.root, 0);
-        // No events; pointer and keyboard go on.
+        // No events; neither pointer nor keyboard is frozen.
         let body = [words(&[root]), vec![0, 0, 1, 1], words(&[0, 0, 0])].concat();
         let reply = self.wire.ask(26, to_root_alone, &body).expect("an answer");
         assert_eq!(reply[1], 0, "another program has the pointer");

@@ -1,6 +1,8 @@
 //! The layers of a take in the window: a new layer is active, poses become its keys, and the panels show these keys.
 
+use crate::scene_lines::run;
 use crate::timeline_rig::Animator;
+use crate::workbench::{Window, Workbench};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{FileAction, Request};
 use dragonfly_anim::retarget::FigureOptions;
@@ -265,7 +267,7 @@ fn a_layer_of_another_model_is_active_when_it_comes() {
     let (pairs, options) = (Vec::new(), FigureOptions::default());
     let order = RetargetOrder { take: 0, layer_of, pairs, options };
     animator.request(Request::Answer(FileAction::Send(DocumentMessage::Retarget(order))));
-    // What the document adds when the take was computed.
+    // The edit of the document when the take was computed.
     let layer = Edit::AddLayer(AddLayer::new(over, "Walk".to_owned(), LayerKind::Override));
     animator.request(Request::Change(dragonfly_document::Change::Edit(layer, None)));
     assert_eq!(animator.harness.state().state.read().layer(), Some(1));
@@ -274,22 +276,31 @@ fn a_layer_of_another_model_is_active_when_it_comes() {
 
 #[test]
 fn what_is_typed_replaces_the_name_of_a_layer_and_escape_gives_it_up() {
-    let mut animator = animator();
+    let mut window = Workbench::full().window();
+    window.get_by_label("Layers").click();
+    window.run_steps(2);
+    run(&mut window, Id::AddLayer);
+    let name = |window: &Window| {
+        window.state().edited.as_ref().expect("a document").adapter().slots()[0].layers()[0]
+            .settings
+            .name
+            .clone()
+    };
     for (end, expected) in [(egui::Key::Escape, "Layer"), (egui::Key::Enter, "Breath")] {
-        let row = animator.harness.get_by_label("Layer").rect();
-        animator.harness.event(egui::Event::PointerMoved(row.left_top() + egui::vec2(30.0, 8.0)));
+        // The upper line of the row.
+        let pos = window.get_by_label("Layer").rect().left_top() + egui::vec2(30.0, 8.0);
+        window.event(egui::Event::PointerMoved(pos));
         for pressed in [true, false, true, false] {
-            let (pos, button) = (row.left_top() + egui::vec2(30.0, 8.0), egui::PointerButton::Primary);
-            let modifiers = egui::Modifiers::NONE;
-            animator.harness.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+            let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+            window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
         }
-        animator.steps(4);
-        assert!(animator.harness.query_by_label("Name of the layer").is_some());
-        animator.harness.event(egui::Event::Text("Breath".to_owned()));
-        animator.steps(2);
-        animator.harness.key_press(end);
-        animator.steps(3);
-        assert!(animator.harness.query_by_label("Name of the layer").is_none());
-        assert_eq!(layers(&animator)[0].0, expected);
+        window.run_steps(3);
+        assert!(window.query_by_label("Name of the layer").is_some());
+        window.event(egui::Event::Text("Breath".to_owned()));
+        window.run_steps(2);
+        window.key_press(end);
+        window.run_steps(3);
+        assert!(window.query_by_label("Name of the layer").is_none());
+        assert_eq!(name(&window), expected);
     }
 }

@@ -48,6 +48,8 @@ fn k_cuts_the_key_of_markers_cuts_to_the_selected_camera_and_that_of_the_rest_po
     select(&mut window, "wide");
     press(&mut window, Modifiers::ALT, Key::M);
     assert_eq!(new_lines(&script, &text(&window))[1], r#"<shot who="wide" begin="1.5"/>"#);
+    // Later it follows a path.
+    window.state_mut().state.execute(Request::Seek(0.0));
     select(&mut window, "ben");
     press(&mut window, Modifiers::ALT, Key::G);
     let new = new_lines(&script, &text(&window));

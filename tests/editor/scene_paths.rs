@@ -76,7 +76,7 @@ fn a_newer_plan_and_another_selection_leave_the_drawn_lines_as_they_are() {
 }
 
 #[test]
-fn while_something_is_dragged_other_paths_are_kept_and_after_it_all_are_drawn_anew() {
+fn while_something_is_dragged_other_paths_are_kept_and_after_it_all_are_drawn_again() {
     let script = FOXES
         .replace("    <mark ", "    <path id=\"other\" points=\"-0.5 0 -0.6  0.5 0 -0.6\"/>\n    <mark ");
     let mut window = scene(&script).window();

@@ -65,6 +65,8 @@ fn a_model_that_is_dropped_from_another_program_stands_where_the_pointer_is() {
     let at = place(&mut visit, wanted).round();
     let mut drag = Drag::new(&visit.screen);
     drag.take_pointer();
+    // Into the window, which the window system reports, and on, which it does not.
+    visit.screen.point(at.x as i16 - 120, at.y as i16 - 40);
     visit.screen.point(at.x as i16, at.y as i16);
     let file = visit.folder.join("Fox.glb");
     assert!(drag.hold(visit.editor.window, &[address(&file)]), "the window does not take files");

@@ -1,8 +1,8 @@
-//! The place of the pointer, asked for where no event reports it: winit says that files were dropped, but not where.
+//! The place of the pointer, asked for where no event reports it: winit reports that files were dropped, but not where.
 
 use winit::window::Window;
 
-/// Returns where the pointer is, physical pixels from the top left of the content of the window. `None` where the window system does not tell.
+/// Returns where the pointer is, physical pixels from the top left of the content of the window. `None` where the window system is not asked.
 pub(super) fn of(window: &Window) -> Option<[f32; 2]> {
     system::pointer(window)
 }

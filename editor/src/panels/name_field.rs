@@ -31,7 +31,7 @@ enum NameFieldStage {
     Typing,
 }
 
-/// What the user has done with a field.
+/// State of a field after a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NameFieldEnd {
     /// The name is still typed.

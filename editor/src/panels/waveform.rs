@@ -14,7 +14,7 @@ pub(super) struct WaveformLook {
     pub(super) peaks: Arc<SoundPeaks>,
     /// Start of the sound, seconds on the scale.
     pub(super) start: f64,
-    /// Number of times that the sound is heard from its start on; 1 for once.
+    /// Number of repetitions of the sound from its start on; 1 for once.
     pub(super) times: f64,
     pub(super) scale: TimeScale,
     /// The columns, from the smallest sample of the sound to the largest.

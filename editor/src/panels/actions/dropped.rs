@@ -44,7 +44,7 @@ fn dropped_on_scene(workspace: &mut Workspace, mut files: Vec<PathBuf>) -> Optio
 }
 
 /// Adds files to the scene in one step. Models are roles: the first one under the pointer, in the middle of the viewport where the window system does not
-/// tell where that is, each further one a meter to the right of the one before. Sounds begin at the playhead.
+/// report its place, each further one a meter to the right of the one before. Sounds begin at the playhead.
 fn add(workspace: &mut Workspace, models: &[PathBuf], sounds: &[PathBuf]) -> Option<Effect> {
     // To a centimeter, which is easy to read.
     let first = scene_ground::pointed(workspace).map(|place| (place * 100.0).round() / 100.0 + 0.0);

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// The reason why a scene has no lines.
 pub(super) const NO_PROJECT: &str =
-    "Lines belong to a project: choose \"New project from this scene\" in File ▸ New";
+    "Lines belong to a project: choose \"New project from this scene\" in the menu File > New";
 
 /// The reason why an edit is refused that no text could have.
 const REFUSED: &str = "The line cannot be written";

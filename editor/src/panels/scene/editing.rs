@@ -156,7 +156,7 @@ impl SceneEditing {
         &mut self.lines
     }
 
-    /// Adapts what is drawn of lines and paths to the scene and the selection. `is_dragging` says whether more changes are likely to come.
+    /// Adapts what is drawn of lines and paths to the scene and the selection. While something is dragged (`is_dragging`), more changes are likely to come.
     pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>, is_dragging: bool) {
         let (selected, hidden, locked) = (self.things.list(), &self.hidden, &self.locked);
         self.lines.update(scene, MarkedThings { selected, hidden, locked }, is_dragging);

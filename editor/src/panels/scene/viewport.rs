@@ -37,7 +37,7 @@ pub struct SceneViewport {
     written: Option<TextSplices>,
     /// The scene at the start of the drag of a point of a line.
     line_base: Option<Arc<SceneView>>,
-    /// Where the drag in progress has put a point last, as texts have it.
+    /// The place of the dragged point in the text that was sent last.
     point: Option<DVec3>,
     /// The heights at which things that are moved are on the ground, at the start of the drag.
     heights: Option<Arc<BTreeMap<usize, f32>>>,

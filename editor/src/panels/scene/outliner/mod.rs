@@ -71,7 +71,7 @@ impl Panel for Outliner {
             return widgets::empty(
                 ui,
                 "The things of a scene appear here",
-                "Choose \"New scene of two roles\" in File ▸ New, or open a scene.xml",
+                "Choose \"New scene of two roles\" in the menu File > New, or open a scene.xml",
             );
         };
         bar(ui, context, requests);

@@ -73,7 +73,7 @@ impl Panel for ScriptPanel {
             return widgets::empty(
                 ui,
                 "The script of a scene appears here",
-                "Choose \"New scene of two roles\" in File ▸ New, or open a scene.xml",
+                "Choose \"New scene of two roles\" in the menu File > New, or open a scene.xml",
             );
         };
         let id = Id::unique("script of the scene");

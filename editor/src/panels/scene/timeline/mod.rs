@@ -76,7 +76,7 @@ impl Panel for SceneTimeline {
             return widgets::empty(
                 ui,
                 "The timeline of a scene appears here",
-                "Choose \"New scene of two roles\" in File ▸ New, or open a scene.xml",
+                "Choose \"New scene of two roles\" in the menu File > New, or open a scene.xml",
             );
         };
         if scene.plan.is_none() {
