@@ -111,6 +111,9 @@ fn a_copy_replaces_nothing_and_does_not_decide_about_the_file_of_the_document() 
         assert!(saved.copy);
         assert_eq!(first_take(&copy), "Stroll");
     }
+    // Nor a decision about another file, which was then not written.
+    let there = folder.join("a.fbx");
+    assert_eq!(save(&mut document, SaveTo::As(there.clone()), true), Err(NotSaved::Exists(there)));
     assert_eq!(save(&mut document, SaveTo::Own, false), Err(NotSaved::Rewritten));
     assert!(fs::read(&path).expect("a file") == bytes, "nothing is written before the answer");
     save(&mut document, SaveTo::Own, true).expect("the user has decided");

@@ -7,15 +7,6 @@ use super::take_check::{CheckedTake, TakeCheck};
 use crate::text::sentence;
 use dragonfly_runtime::Job;
 
-/// The check of takes.
-#[derive(Default)]
-pub(super) struct TakeChecking {
-    /// The job of the newest check; dropping it cancels it.
-    job: Option<Job>,
-    /// The warning of the last check. Each state of a take is checked, and the user is warned once.
-    warning: Option<String>,
-}
-
 impl Document {
     /// Checks a take in a job. The reply is [`DocumentReply::Checked`].
     pub(super) fn check_take(&mut self, check: TakeCheck) {

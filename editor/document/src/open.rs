@@ -59,7 +59,7 @@ pub(super) struct Open {
     pub(super) journal_writer: JournalWriter,
     /// Whether the user discarded the unsaved work.
     pub(super) unwanted: bool,
-    /// Whether the user decided to replace the whole file.
+    /// Whether the whole file was replaced, after the user had decided so.
     pub(super) is_rewritten: bool,
     /// Content of the model that the last save of the file did not store, one sentence each.
     pub(super) lost: Vec<String>,

@@ -1,6 +1,5 @@
 //! The document thread: owns the open document, loads models in jobs, publishes the newest view, writes the journal.
 
-use super::checking::TakeChecking;
 use super::export::ExportQuestions;
 use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
@@ -14,6 +13,7 @@ use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
 use super::saving::SaveOrder;
 use super::scan::{Decision, RecoveryScan};
+use super::take_check::TakeChecking;
 use super::waiting_scene::{SceneModelEdit, WaitingScene};
 use super::{Change, LoadError, Loader, Offer, OpenedModel, Progress, Source, View, open_model};
 use crate::text::sentence;

@@ -234,6 +234,8 @@ impl Document {
         match written {
             Ok(written) => {
                 let saved = open.end_save(*written, autosave.as_ref(), now);
+                // The decision was about this file.
+                open.is_rewritten |= order.rewrite && !saved.copy;
                 self.noticed = None;
                 self.reply(DocumentReply::Saved(SavedFile { then: order.then, ..saved }));
             }

@@ -166,13 +166,11 @@ impl Open {
                 self.file.title, scene.open.file.title
             )));
         }
-        if target != SaveTarget::Copy {
-            // A copy replaces nothing, so that the user decided nothing about the file of the document.
-            self.is_rewritten |= order.rewrite;
-            let is_whole = editable.format().is_some_and(|format| format.is_rewritten());
-            if is_whole && !self.is_rewritten && !editable.is_unedited(self.edited.adapter()) {
-                return Err(NotSaved::Rewritten);
-            }
+        let is_whole = editable.format().is_some_and(|format| format.is_rewritten());
+        let is_decided = self.is_rewritten || order.rewrite;
+        // A copy replaces nothing.
+        if is_whole && !copy && !is_decided && !editable.is_unedited(self.edited.adapter()) {
+            return Err(NotSaved::Rewritten);
         }
         let overwrite = match &order.to {
             SaveTo::Own if order.anyway => Overwrite::Anything,

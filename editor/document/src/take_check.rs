@@ -3,6 +3,7 @@
 use super::take_thresholds::TakeThresholds;
 use dragonfly_anim::data::{Skeleton, Take};
 use dragonfly_anim::lint::LintFinding;
+use dragonfly_runtime::Job;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -28,6 +29,15 @@ pub struct CheckedTake {
     pub findings: Vec<LintFinding>,
     /// A sentence about thresholds that the model has no use for.
     pub warning: Option<String>,
+}
+
+/// The state of the checks of takes.
+#[derive(Default)]
+pub(super) struct TakeChecking {
+    /// The job of the newest check; dropping it cancels it.
+    pub(super) job: Option<Job>,
+    /// The warning of the last check. Each state of a take is checked, and the user is warned once.
+    pub(super) warning: Option<String>,
 }
 
 impl TakeCheck {
