@@ -1,4 +1,4 @@
-//! Sounds are heard along the playhead, once their samples are read.
+//! Sounds play along the playhead, once their samples are read.
 
 use crate::scene_bench::{FOXES, scene};
 use crate::scene_lines::run;
@@ -63,8 +63,8 @@ impl PlayerBench {
 }
 
 #[test]
-fn the_sounds_of_a_scene_are_heard_where_its_script_has_them_until_playback_stops() {
-    let folder = Folder::new("scene-heard");
+fn the_sounds_of_a_scene_play_where_its_script_has_them_until_playback_stops() {
+    let folder = Folder::new("scene-audible");
     write_thunder(&folder.join("thunder.wav"));
     let mut bench = scene(&thunder());
     move_to(&mut bench, &folder);
@@ -86,7 +86,7 @@ fn the_sounds_of_a_scene_are_heard_where_its_script_has_them_until_playback_stop
     let state = &mut window.state_mut().state;
     player.update(state);
     assert_eq!(player.loudness(state, 1.2), 0.0);
-    // Other sounds of other scripts are no longer in memory, and what is played again is heard at once.
+    // The samples are still in memory.
     run(&mut window, Id::PlayPause);
     let state = &mut window.state_mut().state;
     player.update(state);
@@ -94,8 +94,8 @@ fn the_sounds_of_a_scene_are_heard_where_its_script_has_them_until_playback_stop
 }
 
 #[test]
-fn the_sound_beside_a_take_is_heard_from_its_frame_on() {
-    let folder = Folder::new("take-heard");
+fn the_sound_of_a_take_plays_from_its_frame_on() {
+    let folder = Folder::new("take-audible");
     let file = folder.join("thunder.wav");
     write_thunder(&file);
     let mut bench = crate::workbench::Workbench::full();
@@ -114,7 +114,7 @@ fn the_sound_beside_a_take_is_heard_from_its_frame_on() {
 }
 
 #[test]
-fn without_a_device_the_user_is_told_once_and_only_where_there_are_sounds() {
+fn without_a_device_one_message_explains_the_silence_of_sounds() {
     let tries = Rc::new(Cell::new(0));
     let counted = Rc::clone(&tries);
     let mut player = SoundPlayer::with_output(move || {
@@ -128,7 +128,7 @@ fn without_a_device_the_user_is_told_once_and_only_where_there_are_sounds() {
     run(&mut silent, Id::PlayPause);
     player.update(&mut silent.state_mut().state, &address);
     assert_eq!(tries.get(), 0, "a scene without sounds");
-    let folder = Folder::new("scene-unheard");
+    let folder = Folder::new("scene-silent");
     let mut bench = scene(&thunder());
     move_to(&mut bench, &folder);
     let mut window = bench.window();
@@ -148,8 +148,8 @@ fn without_a_device_the_user_is_told_once_and_only_where_there_are_sounds() {
 }
 
 #[test]
-fn a_sound_that_cannot_be_played_is_named_and_the_others_are_heard() {
-    let folder = Folder::new("scene-some-heard");
+fn a_sound_that_cannot_be_played_is_named_and_the_others_play() {
+    let folder = Folder::new("scene-some-audible");
     write_thunder(&folder.join("thunder.wav"));
     let mut bench = scene(&thunder());
     move_to(&mut bench, &folder);

@@ -146,7 +146,7 @@ fn a_file_without_edits_keeps_its_bytes_compacted_or_not() {
         let plan = plan.expect("a plan");
         assert!(plan.files[0].bytes == bytes && plan.files.len() == 1 && plan.lost.is_empty());
     }
-    // With a new name, the whole file is written anew.
+    // With another name, the whole file is written again.
     let mut edited = takes;
     edited[0].take = Arc::new(Take { name: "other".into(), ..Take::clone(&edited[0].take) });
     assert!(file.plan(&model, &edited).expect("a plan").files[0].bytes != bytes);

@@ -31,7 +31,7 @@ pub(crate) fn wav(path: &Path, channels: u16, rate: u32, samples: &[f32]) {
 
 #[test]
 fn the_tones_of_each_format_are_those_that_were_encoded() {
-    // Largest root mean square of the error; the last two formats leave out what is not heard.
+    // Largest root mean square of the error; the last two formats leave out parts.
     for (name, length, most) in
         [("tones.flac", 0.5, 1e-4), ("tones.ogg", 1.5, 0.02), ("tones.mp3", 0.5, 0.02)]
     {
@@ -65,22 +65,22 @@ fn a_sound_is_read_in_blocks_that_together_are_all_of_it() {
 }
 
 #[test]
-fn one_channel_is_heard_on_both_sides_and_channels_beyond_two_too() {
+fn one_channel_is_on_both_sides_and_channels_beyond_two_are_too() {
     let folder = Folder::new("sound-channels");
     let path = folder.join("it.wav");
-    let heard = |channels: u16, frame: &[f32]| {
+    let played = |channels: u16, frame: &[f32]| {
         wav(&path, channels, 8_000, &frame.repeat(10));
         samples(&path).unwrap().at(0.0005)
     };
     let near = |have: [f32; 2], want: [f32; 2]| {
         assert!(have.iter().zip(want).all(|(have, want)| (have - want).abs() < 1e-4), "{have:?} of {want:?}");
     };
-    near(heard(1, &[0.25]), [0.25; 2]);
-    near(heard(2, &[0.25, -0.5]), [0.25, -0.5]);
+    near(played(1, &[0.25]), [0.25; 2]);
+    near(played(2, &[0.25, -0.5]), [0.25, -0.5]);
     let middle = 0.2 * std::f32::consts::FRAC_1_SQRT_2;
-    near(heard(3, &[0.25, -0.5, 0.2]), [0.25 + middle, -0.5 + middle]);
+    near(played(3, &[0.25, -0.5, 0.2]), [0.25 + middle, -0.5 + middle]);
     // Louder than full scale is full scale, and no number is silence.
-    near(heard(2, &[7.0, f32::NAN]), [1.0, 0.0]);
+    near(played(2, &[7.0, f32::NAN]), [1.0, 0.0]);
 }
 
 #[test]
@@ -93,8 +93,8 @@ fn between_two_frames_a_sample_is_on_the_line_between_them_and_outside_there_is_
     for (seconds, wanted) in
         [(-0.01, 0.0), (0.0, 0.0), (0.05, 0.25), (0.1, 0.5), (0.15, 0.0), (0.2, -0.5), (0.3, 0.0)]
     {
-        let heard = samples.at(seconds)[0];
-        assert!((heard - wanted).abs() < 1e-4, "{heard} at {seconds} s, not {wanted}");
+        let played = samples.at(seconds)[0];
+        assert!((played - wanted).abs() < 1e-4, "{played} at {seconds} s, not {wanted}");
     }
     assert_eq!(samples.at(f64::NAN), [0.0; 2]);
 }

@@ -34,7 +34,7 @@ fn scene(actions: &str, samples: &[Option<Arc<SoundSamples>>]) -> SoundMix {
 }
 
 /// Returns the frames from a time on.
-fn heard(mix: &mut SoundMix, from: f64, step: f64, frames: usize) -> Vec<[f32; 2]> {
+fn mixed(mix: &mut SoundMix, from: f64, step: f64, frames: usize) -> Vec<[f32; 2]> {
     let mut out = vec![[0.0; 2]; frames];
     mix.add(from, step, &mut out);
     out
@@ -42,7 +42,7 @@ fn heard(mix: &mut SoundMix, from: f64, step: f64, frames: usize) -> Vec<[f32; 2
 
 /// Returns the left side of one frame, far from where sounds begin and end.
 fn left(mix: &mut SoundMix, time: f64) -> f32 {
-    let [left, right] = heard(mix, time, 1.0 / RATE, 64)[10];
+    let [left, right] = mixed(mix, time, 1.0 / RATE, 64)[10];
     assert_eq!(left, -right);
     left
 }
@@ -52,7 +52,7 @@ fn near(have: f32, want: f32) {
 }
 
 #[test]
-fn sounds_are_heard_from_their_begin_to_their_end_with_their_loudness() {
+fn sounds_play_from_their_begin_to_their_end_with_their_loudness() {
     let sounds = "<sound src=\"a.wav\" begin=\"1\" end=\"3\" gain=\"0.5\"/><sound src=\"b.wav\" begin=\"2\" end=\"4\"/>";
     let mut mix = scene(sounds, &[Some(flat(0.5, 9.0)), Some(flat(0.125, 9.0))]);
     for (time, wanted) in [(0.5, 0.0), (1.5, 0.25), (2.5, 0.375), (3.5, 0.125), (4.5, 0.0)] {
@@ -65,11 +65,11 @@ fn a_sound_begins_at_its_frame_and_ends_without_a_click() {
     let mut mix = scene("<sound src=\"a.wav\" begin=\"1\" end=\"2\"/>", &[Some(flat(0.5, 9.0))]);
     let step = 1.0 / RATE;
     for ahead in [0, 1, 63, 127, 128, 300] {
-        let frames = heard(&mut mix, 1.0 - f64::from(ahead) * step, step, 600);
+        let frames = mixed(&mut mix, 1.0 - f64::from(ahead) * step, step, 600);
         let first = frames.iter().position(|frame| frame[0].abs() > 1e-4).expect("a sound");
         assert!(first.abs_diff(ahead as usize) <= 1, "{first} instead of {ahead}");
     }
-    let frames = heard(&mut mix, 1.99, step, 960);
+    let frames = mixed(&mut mix, 1.99, step, 960);
     let jumps = frames.windows(2).map(|pair| (pair[1][0] - pair[0][0]).abs());
     assert!(jumps.fold(0.0, f32::max) < 0.01, "it fades");
     assert!(frames[..380].iter().all(|frame| (frame[0] - 0.5).abs() < 1e-3));
@@ -94,11 +94,11 @@ fn fades_and_repeats_are_those_of_the_script() {
     for plan in [plan_with_length(three, 0.5), plan(three)] {
         let mut mix = SoundMix::new(MixedSounds::Scene { plan, samples: vec![Some(Arc::clone(&ramp))] });
         for (time, wanted) in [(1.25, 0.5), (1.75, 0.5), (2.1, 0.2), (2.4, 0.8), (2.6, 0.0)] {
-            let [heard, _] = heard(&mut mix, time, 1.0 / RATE, 1)[0];
-            assert!((heard - wanted).abs() < 5e-3, "{heard} at {time} s instead of {wanted}");
+            let [mixed, _] = mixed(&mut mix, time, 1.0 / RATE, 1)[0];
+            assert!((mixed - wanted).abs() < 5e-3, "{mixed} at {time} s instead of {wanted}");
         }
         // Also in the block in which it starts again.
-        let frames = heard(&mut mix, 1.5 - 64.0 / RATE, 1.0 / RATE, 128);
+        let frames = mixed(&mut mix, 1.5 - 64.0 / RATE, 1.0 / RATE, 128);
         assert!(frames[100][0] < 0.05 && frames[20][0] > 0.9, "{:?}", frames[100]);
     }
 }
@@ -123,9 +123,9 @@ fn backwards_and_at_another_speed_each_moment_sounds_as_forwards() {
     let mut mix = SoundMix::new(MixedSounds::Take { begin: 0.5, samples: sound });
     for speed in [1.0, 0.25, 3.0, -1.0, -2.0] {
         let step = speed / RATE;
-        for (number, [heard, _]) in heard(&mut mix, 2.0, step, 3_000).into_iter().enumerate() {
+        for (number, [mixed, _]) in mixed(&mut mix, 2.0, step, 3_000).into_iter().enumerate() {
             let wanted = (2.0 + step * number as f64 - 0.5) / 4.0;
-            assert!((f64::from(heard) - wanted).abs() < 1e-3, "{heard} instead of {wanted} at {speed} x");
+            assert!((f64::from(mixed) - wanted).abs() < 1e-3, "{mixed} instead of {wanted} at {speed} x");
         }
     }
 }

@@ -9,7 +9,7 @@ pub struct ImageKind {
     pub extensions: &'static [&'static str],
     /// The extension of glTF that textures with such an image need; `None` for the kinds that glTF itself allows.
     pub gltf_extension: Option<&'static str>,
-    /// Returns width and height in pixels as the header tells; `None` for bytes of another kind.
+    /// Returns width and height in pixels, from the header; `None` for bytes of another kind.
     measure: fn(&[u8]) -> Option<(u32, u32)>,
 }
 
@@ -38,7 +38,7 @@ impl ImageKind {
     }
 }
 
-/// Returns media type, width and height in pixels as the header of an image tells, or `None` for an unknown kind.
+/// Returns media type, width and height in pixels from the header of an image, or `None` for an unknown kind.
 pub fn measure_image(bytes: &[u8]) -> Option<(&'static str, u32, u32)> {
     IMAGE_KINDS.iter().find_map(|kind| {
         let (width, height) = (kind.measure)(bytes)?;

@@ -1,4 +1,4 @@
-//! All sounds that are heard at a time, added up.
+//! The sum of all sounds that play at a time.
 
 use super::SoundSamples;
 use dragonfly_anim::stage::time::StageTime;
@@ -8,12 +8,12 @@ use std::sync::Arc;
 /// Frames after which the loudness of each sound is computed again; between them it changes along a line.
 const BLOCK: usize = 128;
 
-/// The sounds of what is open, and when they are heard.
+/// The sounds of what is open, and when they play.
 #[derive(Clone, Debug)]
 pub enum MixedSounds {
     /// The sounds of a scene, in the order of [`StagePlan::sounds`]; `None` for those that cannot be played.
     Scene {
-        /// The plan, which tells what is heard when.
+        /// The plan, which has their times.
         plan: Arc<StagePlan>,
         /// The samples.
         samples: Vec<Option<Arc<SoundSamples>>>,
@@ -28,18 +28,18 @@ pub enum MixedSounds {
 }
 
 impl MixedSounds {
-    /// Writes what is heard at a time, seconds.
+    /// Writes the sounds that play at a time, seconds.
     fn playing(&self, time: f64, out: &mut Vec<PlayingSound>) {
         match self {
             Self::Scene { plan, samples } => {
                 plan.playing_sounds(StageTime::from_seconds(time), out);
                 // The plan may not know how long its sounds are.
-                out.retain_mut(|heard| {
-                    let Some(Some(samples)) = samples.get(heard.sound) else { return false };
-                    let times = [heard.seconds, samples.seconds()].map(StageTime::from_seconds);
+                out.retain_mut(|playing_sound| {
+                    let Some(Some(samples)) = samples.get(playing_sound.sound) else { return false };
+                    let times = [playing_sound.seconds, samples.seconds()].map(StageTime::from_seconds);
                     let within =
-                        plan.sounds().get(heard.sound).and_then(|cue| cue.within(times[0], times[1]));
-                    heard.seconds = within.map_or(heard.seconds, StageTime::seconds);
+                        plan.sounds().get(playing_sound.sound).and_then(|cue| cue.within(times[0], times[1]));
+                    playing_sound.seconds = within.map_or(playing_sound.seconds, StageTime::seconds);
                     within.is_some()
                 });
             }
@@ -65,12 +65,12 @@ impl MixedSounds {
 #[derive(Clone, Debug)]
 pub struct SoundMix {
     sounds: MixedSounds,
-    /// What is heard at the start and at the end of a block.
+    /// The sounds that play at the start and at the end of a block.
     ends: [Vec<PlayingSound>; 2],
 }
 
 impl SoundMix {
-    /// Returns the mix of these sounds. It needs no more memory later while fewer than 64 sounds are heard at once.
+    /// Returns the mix of these sounds. It needs no more memory later while fewer than 64 sounds play at once.
     pub fn new(sounds: MixedSounds) -> Self {
         Self { sounds, ends: [Vec::with_capacity(64), Vec::with_capacity(64)] }
     }
@@ -84,21 +84,24 @@ impl SoundMix {
             let [start, end] = &mut self.ends;
             self.sounds.playing(time, start);
             self.sounds.playing(after, end);
-            for heard in &*start {
-                let Some(samples) = self.sounds.samples(heard.sound) else { continue };
-                // One that is over at the end of the block fades out within it, so that no click is heard.
-                let last = end.iter().find(|last| last.sound == heard.sound).map_or(0.0, |last| last.gain);
-                let at = |frame: f64| repeated(heard.seconds + step * frame, samples, end, heard.sound);
-                add(block, samples, [heard.gain, last], at);
+            for playing_sound in &*start {
+                let Some(samples) = self.sounds.samples(playing_sound.sound) else { continue };
+                // One that is over at the end of the block fades out within it, without a click.
+                let last =
+                    end.iter().find(|last| last.sound == playing_sound.sound).map_or(0.0, |last| last.gain);
+                let at = |frame: f64| {
+                    repeated(playing_sound.seconds + step * frame, samples, end, playing_sound.sound)
+                };
+                add(block, samples, [playing_sound.gain, last], at);
             }
-            for heard in &*end {
-                if let Some(samples) = self.sounds.samples(heard.sound)
-                    && !start.iter().any(|first| first.sound == heard.sound)
+            for playing_sound in &*end {
+                if let Some(samples) = self.sounds.samples(playing_sound.sound)
+                    && !start.iter().any(|first| first.sound == playing_sound.sound)
                 {
                     // It begins within the block: before its start there is silence.
                     let back = block.len() as f64;
-                    let at = |frame: f64| heard.seconds + step * (frame - back);
-                    add(block, samples, [heard.gain; 2], at);
+                    let at = |frame: f64| playing_sound.seconds + step * (frame - back);
+                    add(block, samples, [playing_sound.gain; 2], at);
                 }
             }
             time = after;
@@ -106,7 +109,7 @@ impl SoundMix {
     }
 }
 
-/// Returns a time in a sound, which starts again at its end where it is still heard at the end of the block.
+/// Returns a time in a sound, which starts again at its end where it still plays at the end of the block.
 fn repeated(seconds: f64, samples: &SoundSamples, end: &[PlayingSound], sound: usize) -> f64 {
     let length = samples.seconds();
     let goes_on = || end.iter().any(|last| last.sound == sound);
@@ -122,8 +125,8 @@ fn add(block: &mut [[f32; 2]], samples: &SoundSamples, gain: [f32; 2], at: impl 
     let count = block.len() as f32;
     for (number, frame) in block.iter_mut().enumerate() {
         let loud = gain[0] + (gain[1] - gain[0]) * (number as f32 / count);
-        let heard = samples.at(at(number as f64));
-        frame[0] += heard[0] * loud;
-        frame[1] += heard[1] * loud;
+        let playing_sound = samples.at(at(number as f64));
+        frame[0] += playing_sound[0] * loud;
+        frame[1] += playing_sound[1] * loud;
     }
 }

@@ -5,7 +5,7 @@ use super::SoundReader;
 /// Largest number of frames of a sound that is played: 23 minutes at 48 kHz, 256 MiB.
 pub const MOST_FRAMES: usize = 64 << 20;
 
-/// Factor for channels beyond left and right, which are in the middle or behind: half of their power on each side.
+/// Factor for channels beyond left and right, which have no side: half of their power on each.
 const OTHERS: f32 = std::f32::consts::FRAC_1_SQRT_2;
 
 /// A sound in two channels.
@@ -18,7 +18,7 @@ pub struct SoundSamples {
 }
 
 impl SoundSamples {
-    /// Reads the rest of a file. One channel is heard on both sides, and all channels beyond the second too.
+    /// Reads the rest of a file. A single channel is on both sides, and all channels beyond the second are too.
     ///
     /// # Errors
     ///

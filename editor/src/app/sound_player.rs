@@ -29,8 +29,8 @@ type OpenOutput = Box<dyn Fn() -> Result<SoundOutput, OutputError>>;
 pub struct SoundPlayer {
     open: OpenOutput,
     output: PlayerOutput,
-    /// Whether the user was told that nothing is heard.
-    is_told: bool,
+    /// Whether a message has explained that nothing is played.
+    is_explained: bool,
     /// The samples of each sound; `None` for one that cannot be played.
     samples: BTreeMap<SoundSource, Option<Arc<SoundSamples>>>,
     reading: Option<Job>,
@@ -50,21 +50,21 @@ enum PlayerOutput {
 #[derive(Clone, Debug)]
 struct PlayedSounds {
     clock: PlaybackClock,
-    heard: HeardSounds,
+    sounds: AudibleSounds,
     /// Number of sounds with samples.
     known: usize,
 }
 
 /// The sounds of what is open.
 #[derive(Clone, Debug)]
-enum HeardSounds {
+enum AudibleSounds {
     /// Those of a scene, in the order of its plan.
     Scene(Arc<StagePlan>, Vec<SoundSource>),
-    /// The one beside a take, with the time at which it begins, seconds.
+    /// That of a take, with the time at which it begins, seconds.
     Take(f64, SoundSource),
 }
 
-impl HeardSounds {
+impl AudibleSounds {
     /// Returns the sounds of what is open whose files could be read; `None` where there is no sound.
     fn of(read: &PanelContext<'_>) -> Option<Self> {
         if let Some(scene) = read.scene() {
@@ -118,7 +118,7 @@ impl SoundPlayer {
         Self {
             open: Box::new(open),
             output: PlayerOutput::Unopened,
-            is_told: false,
+            is_explained: false,
             samples: BTreeMap::new(),
             reading: None,
             played: None,
@@ -129,13 +129,13 @@ impl SoundPlayer {
     pub fn update(&mut self, state: &mut State, to: &Address<SamplesAnswer>) {
         let read = state.read();
         let clock = read.playback;
-        let heard = HeardSounds::of(&read).filter(|_| clock.moves(read.now));
-        let Some(heard) = heard else { return self.stop() };
+        let sounds = AudibleSounds::of(&read).filter(|_| clock.moves(read.now));
+        let Some(sounds) = sounds else { return self.stop() };
         if matches!(self.output, PlayerOutput::Unopened) {
             self.output = match (self.open)() {
                 Ok(output) => PlayerOutput::Open(output),
                 Err(error) => {
-                    if !std::mem::replace(&mut self.is_told, true) {
+                    if !std::mem::replace(&mut self.is_explained, true) {
                         let text = format!("The sounds are shown and not played: {error}");
                         state.say(MessageSeverity::Info, text);
                     }
@@ -146,14 +146,14 @@ impl SoundPlayer {
         if !matches!(self.output, PlayerOutput::Open(_)) {
             return;
         }
-        self.samples.retain(|source, _| heard.sources().contains(source));
-        self.read_next(state, &heard, to);
-        let known = heard.sources().iter().filter(|source| self.samples_of(source).is_some()).count();
+        self.samples.retain(|source, _| sounds.sources().contains(source));
+        self.read_next(state, &sounds, to);
+        let known = sounds.sources().iter().filter(|source| self.samples_of(source).is_some()).count();
         let is_same = self.played.as_ref().is_some_and(|played| {
-            played.clock == clock && played.known == known && played.heard.is_same(&heard)
+            played.clock == clock && played.known == known && played.sounds.is_same(&sounds)
         });
         if !is_same {
-            self.play(state, PlayedSounds { clock, heard, known });
+            self.play(state, PlayedSounds { clock, sounds, known });
         }
     }
 
@@ -176,17 +176,17 @@ impl SoundPlayer {
     }
 
     /// Reads the next sound whose waveform is known, so that its file can be read.
-    fn read_next(&mut self, state: &State, heard: &HeardSounds, to: &Address<SamplesAnswer>) {
+    fn read_next(&mut self, state: &State, sounds: &AudibleSounds, to: &Address<SamplesAnswer>) {
         if self.reading.is_some() {
             return;
         }
-        let sounds = state.read().scene_editing.sounds();
+        let read = state.read().scene_editing.sounds();
         let is_readable = |source: &SoundSource| match source {
-            SoundSource::Below { name, .. } => matches!(sounds.get(name), Some(SceneSound::Read(_))),
+            SoundSource::Below { name, .. } => matches!(read.get(name), Some(SceneSound::Read(_))),
             SoundSource::File(_) => true,
         };
         let is_missing = |source: &&SoundSource| !self.samples.contains_key(source) && is_readable(source);
-        let Some(source) = heard.sources().iter().find(is_missing).cloned() else { return };
+        let Some(source) = sounds.sources().iter().find(is_missing).cloned() else { return };
         let (own, failed_source) = (source.clone(), source.clone());
         let work = move |job: &JobContext<SamplesAnswer>| {
             let samples = own.samples(job.cancel_flag());
@@ -201,12 +201,12 @@ impl SoundPlayer {
 
     fn play(&mut self, state: &mut State, now: PlayedSounds) {
         let samples = |source: &SoundSource| self.samples_of(source).cloned();
-        let sounds = match &now.heard {
-            HeardSounds::Scene(plan, sources) => Some(MixedSounds::Scene {
+        let sounds = match &now.sounds {
+            AudibleSounds::Scene(plan, sources) => Some(MixedSounds::Scene {
                 plan: Arc::clone(plan),
                 samples: sources.iter().map(samples).collect(),
             }),
-            HeardSounds::Take(begin, source) => {
+            AudibleSounds::Take(begin, source) => {
                 samples(source).map(|samples| MixedSounds::Take { begin: *begin, samples })
             }
         };
@@ -232,7 +232,7 @@ impl SoundPlayer {
         }
     }
 
-    /// Sends a command; a device that does not work any more is told to the user once, and not used again.
+    /// Sends a command. Where the device does not work any more, a message explains it, and the next playback opens it again.
     fn send(&mut self, command: OutputCommand, state: Option<&mut State>) {
         let PlayerOutput::Open(output) = &self.output else { return };
         if let Err(error) = output.send(command) {

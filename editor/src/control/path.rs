@@ -1,22 +1,14 @@
 //! The keys of a motion path as a control of the scene: each can be dragged.
 
 use super::key::Modifiers;
+use super::path_point::PathKey;
 use super::point_drag::{PointControl, PointSet};
 use super::viewport_tools::tool::ToolOutcome;
 use dragonfly_picture::gizmo::{AXIS_FROM, GizmoView};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 
 /// Distance within which a key is under the pointer, points.
 const REACH: f64 = 7.0;
-
-/// A key on the path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathKey {
-    /// Seconds.
-    pub time: f32,
-    /// Position of the joint at that time, scene space.
-    pub place: Vec3,
-}
 
 /// The keys on the path.
 #[derive(Clone, Debug, Default, PartialEq)]

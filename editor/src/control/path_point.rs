@@ -1,7 +1,16 @@
-//! A point of a path or of a line that can be dragged in the viewport.
+//! Points that can be dragged in the viewport: keys of a motion path, points of paths and lines of a scene.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
+
+/// A key on the motion path of a bone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathKey {
+    /// Seconds.
+    pub time: f32,
+    /// Position of the joint at that time, scene space.
+    pub place: Vec3,
+}
 
 /// What a point belongs to.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -147,7 +147,7 @@ impl<S: PointSet> BaseControl for PointControl<S> {
         let at = mouse.at - self.corner;
         let Some(drag) = self.machine.drag() else {
             self.hovered = self.point_at(at);
-            // A point covers the handles of the gizmo behind it.
+            // A point covers the handles of the gizmo.
             return if self.hovered.is_some() { InputFlow::Stop } else { InputFlow::ToParent };
         };
         let way = [drag.start, at].map(|at| at.as_dvec2());

@@ -2,7 +2,7 @@
 
 use super::keys::BoneFlags;
 use super::posed::PoseCache;
-use crate::control::path::PathKey;
+use crate::control::path_point::PathKey;
 use dragonfly_anim::animation::to_parent;
 use dragonfly_anim::data::{BoneIndex, Take, Track};
 use dragonfly_anim::sample::{rest_pose, sample_track};

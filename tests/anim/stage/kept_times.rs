@@ -89,7 +89,7 @@ fn no_action_gets_another_one_before_it_that_it_refers_to() {
         }))
     };
     assert_eq!(change("a", 4.5), wanted);
-    // What comes first has none before it that it could refer to, whatever is behind the sequence.
+    // The first action of a sequence has none before it that it could refer to, whatever follows the sequence.
     let behind = "<par>\n<seq>\n<play id=\"a\" who=\"anna\" take=\"Survey\"/>\n<play id=\"b\" who=\"anna\" take=\"Walk\"/>\n</seq>\n<play id=\"c\" who=\"ben\" take=\"Walk\" begin=\"prev.end\"/>\n</par>";
     let (old, new) = gesture(behind, |s| {
         move_clip(s, called(s, "b"), seconds(0.0), SequenceOrder::Change, Followers::Follow)

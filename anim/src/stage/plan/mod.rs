@@ -200,7 +200,7 @@ impl StagePlan {
         &self.sounds
     }
 
-    /// Writes the sounds that are heard at `time`, in the order of [`Self::sounds`]. Allocates only where more are heard than `out` has room for.
+    /// Writes the sounds that play at `time`, in the order of [`Self::sounds`]. Allocates only where more play than `out` has room for.
     pub fn playing_sounds(&self, time: StageTime, out: &mut Vec<PlayingSound>) {
         out.clear();
         out.extend(self.sounds.iter().enumerate().filter_map(|(sound, cue)| {

@@ -51,7 +51,7 @@ pub(super) fn decode(bytes: &[u8], size: ImageSize) -> Result<RgbaImage, String>
 fn transcode(bytes: &[u8], size: ImageSize) -> Result<RgbaImage, String> {
     let damaged = |_| DAMAGED.to_owned();
     let blocks = u64::from(size.width.div_ceil(4)) * u64::from(size.height.div_ceil(4));
-    // The transcoder allocates what the file says.
+    // The transcoder allocates the length that is written in the file.
     let compression =
         bytes.get(SUPERCOMPRESSION..).and_then(<[u8]>::first_chunk).map(|at| u32::from_le_bytes(*at));
     let length = bytes.get(FIRST_LENGTH..).and_then(<[u8]>::first_chunk).map(|at| u64::from_le_bytes(*at));

@@ -19,7 +19,7 @@ pub(super) const FLAC: SoundFormat = SoundFormat {
 struct Flac {
     reader: FlacReader<BufReader<File>>,
     buffer: Vec<i32>,
-    /// Samples of a channel that are still to come; `None` where the file does not tell. Some encoders write more bytes behind the last one.
+    /// Samples of a channel that are still to come; `None` where the file does not contain it. Some encoders write more bytes after the last one.
     left: Option<u64>,
 }
 

@@ -13,7 +13,7 @@ use std::path::Path;
 const LARGEST_FILE: u64 = 4 << 30;
 /// Largest number of channels.
 const MOST_CHANNELS: usize = 64;
-/// Bytes at the start of a file by which formats are told apart.
+/// Bytes at the start of a file by which formats are recognized.
 const START: usize = 16;
 
 /// A format of sound files.
@@ -107,7 +107,7 @@ impl SoundReader {
     pub fn next_block(&mut self) -> Result<Option<&[f32]>, String> {
         self.block.clear();
         let Self { decoder, block } = self;
-        // Blocks of a whole file in one would need much memory; a decoder may also give none and go on.
+        // A decoder may return an empty block before the end.
         while block.is_empty() {
             if !guarded(|| decoder.read(block))? {
                 break;

@@ -25,7 +25,7 @@ impl OpenDevice {
         let supported = device.default_output_config().map_err(failed)?;
         let (format, size) = (supported.sample_format(), *supported.buffer_size());
         let mut config = StreamConfig::from(supported);
-        // Devices may have buffers of seconds, and what is heard would follow the playhead that late.
+        // Devices may have buffers of seconds, and the sound would follow the playhead that late.
         if let SupportedBufferSize::Range { min, max } = size
             && min <= max
         {
@@ -75,7 +75,7 @@ fn stream<T: SizedSample + FromSample<f32>>(
         }
     };
     let report = move |error: cpal::Error| {
-        // Gaps are heard and end by themselves.
+        // Gaps end by themselves.
         if !matches!(error.kind(), cpal::ErrorKind::Xrun | cpal::ErrorKind::RealtimeDenied) {
             let _ = fail.try_send(error.to_string());
         }

@@ -11,18 +11,18 @@ use flume::{Receiver, Sender};
 /// Commands that may wait for the device, which takes them many times a second.
 const WAITING: usize = 64;
 
-/// Reasons why no sound is heard.
+/// Reasons why no sound is played.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OutputError {
     /// The program was built without the feature `audio`.
     #[error("this program was built without sound output (feature \"audio\")")]
     NotBuilt,
     /// There is no device, or it cannot be used.
-    #[error("no sound is heard: {0}")]
+    #[error("{0}")]
     Device(String),
 }
 
-/// An audio device that plays what it is told. It stops when this is dropped.
+/// An audio device that follows commands. It stops when this is dropped.
 pub struct SoundOutput {
     commands: Sender<OutputCommand>,
     /// Mixes that the device no longer plays: their memory is freed here, since freeing takes time that the device does not have.

@@ -1,10 +1,10 @@
-//! What the device plays: the newest command, carried on from one call of the device to the next.
+//! The side of the device: it plays the newest command, from one of its calls to the next.
 
 use crate::mix::SoundMix;
 use flume::{Receiver, Sender};
 use std::time::{Duration, Instant};
 
-/// Difference between the time that is heard and the time that is shown from which on what is heard jumps.
+/// Difference between the time that plays and the time that is shown from which on playback jumps.
 const MOST_DIFFERENCE: Duration = Duration::from_millis(60);
 
 /// The time that is shown, as a function of the time that has passed.
@@ -47,11 +47,11 @@ impl OutputVoice {
         Self { commands, freed, now: OutputCommand::Stop, filled: Duration::ZERO }
     }
 
-    /// Fills frames of left and right, from -1 to 1, `rate` of them a second; the first one is heard at `at`.
+    /// Fills frames of left and right, from -1 to 1, `rate` of them a second; the first one plays at `at`.
     pub fn fill(&mut self, at: Instant, rate: u32, frames: &mut [[f32; 2]]) {
         while let Ok(command) = self.commands.try_recv() {
             let old = std::mem::replace(&mut self.now, command);
-            // Where nobody takes it any more, it is freed here.
+            // Without a receiver it is freed here.
             let _ = self.freed.try_send(old);
             if let OutputCommand::Play(_, clock) = &self.now {
                 self.filled = at.saturating_duration_since(clock.begun);
@@ -59,12 +59,12 @@ impl OutputVoice {
         }
         frames.fill([0.0; 2]);
         let OutputCommand::Play(mix, clock) = &mut self.now else { return };
-        // The device counts its own time; where both drift apart, what is heard follows what is shown.
+        // The device counts its own time; where both drift apart, it follows the time that is shown.
         let passed = at.saturating_duration_since(clock.begun);
         if passed.abs_diff(self.filled) > MOST_DIFFERENCE {
             self.filled = passed;
         }
-        // In parts, so that a jump of the clock is heard where it is.
+        // In parts, so that a jump of the clock is where it belongs.
         for part in frames.chunks_mut(256) {
             let seconds = part.len() as f64 / f64::from(rate.max(1));
             let after = self.filled + Duration::from_secs_f64(seconds);

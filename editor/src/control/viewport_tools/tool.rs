@@ -2,8 +2,7 @@
 
 use crate::control::base::{BaseControl, Mouse};
 use crate::control::line::LineAnswer;
-use crate::control::path::PathKey;
-use crate::control::path_point::PathPoint;
+use crate::control::path_point::{PathKey, PathPoint};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::edit::Edit;
 use dragonfly_picture::gizmo::{GizmoSettings, GizmoView, PosedSkeleton, Tool};

@@ -1,7 +1,7 @@
 //! Input of the viewport: events reach the tools as they happen, and the resulting effects are passed on at once.
 
 use super::{locks, playback, scene_camera, scene_gizmo, scene_lines, scene_points, tools};
-use crate::control::path::PathKey;
+use crate::control::path_point::PathKey;
 use crate::control::{Button, InputEvent, ToolOutcome, ViewportOutcome};
 use crate::panels::request::Effect;
 use crate::panels::tool_drag::Alone;
