@@ -2,7 +2,7 @@
 
 use crate::scene_lines::run;
 use crate::timeline_rig::Animator;
-use crate::workbench::{Window, Workbench};
+use crate::workbench::{Window, Workbench, button};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{FileAction, Request};
 use dragonfly_anim::retarget::FigureOptions;
@@ -290,9 +290,10 @@ fn what_is_typed_replaces_the_name_of_a_layer_and_escape_gives_it_up() {
         // The upper line of the row.
         let pos = window.get_by_label("Layer").rect().left_top() + egui::vec2(30.0, 8.0);
         window.event(egui::Event::PointerMoved(pos));
+        window.run_steps(1);
         for pressed in [true, false, true, false] {
-            let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
-            window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+            button(&mut window, pos, pressed);
+            println!("{pressed} {pos} {:?}", window.query_by_label("Name of the layer").is_some());
         }
         window.run_steps(3);
         assert!(window.query_by_label("Name of the layer").is_some());

@@ -115,7 +115,7 @@ fn lines(count: usize) -> Arc<[String]> {
 }
 
 /// Returns a document with unsaved work and without panels around the question.
-fn bench(state: &str) -> Workbench {
+fn bench(question: &str, state: &str) -> Workbench {
     let mut bench = match state {
         "crowded" => Fullness::Crowded.bench(),
         _ => Workbench::full(),
@@ -126,7 +126,10 @@ fn bench(state: &str) -> Workbench {
     }
     let mut view = bench.state.read().view.cloned().expect("a model");
     // A relative path would be completed with the folder in which the tests run.
-    view.file = Arc::new(FileView { path: Some("/home/mara/models/Fox.glb".into()), ..(*view.file).clone() });
+    // A glTF file is never written as a whole.
+    let ending = if question == "rewrite" { "fbx" } else { "glb" };
+    let path = Some(format!("/home/mara/models/Fox.{ending}").into());
+    view.file = Arc::new(FileView { path, ending: ending.into(), ..(*view.file).clone() });
     bench.state.show(view);
     bench
 }
@@ -137,7 +140,7 @@ pub(super) fn cases() -> Vec<PictureCase> {
         size: vec2(720.0, 520.0),
         crop: Crop::Above,
         bench: Box::new(move || {
-            let mut bench = bench(state);
+            let mut bench = bench(name, state);
             bench.state.ask(question());
             bench
         }),
