@@ -153,9 +153,10 @@ const ABSENCES: &[Absence] = &[
     },
     Absence {
         within: &["editor/"],
-        // The type of a window, and the places of the main thread that make a surface of it.
+        // The type of a window, and the places of the main thread that make a surface of it or ask for the pointer.
         except: &[
             "editor/src/app/target_window.rs",
+            "editor/src/app/pointer_place.rs",
             "editor/picture/src/connection.rs",
             "editor/picture/src/surface_source.rs",
             "editor/picture/src/x11.rs",
