@@ -179,12 +179,19 @@ fn a_take_of_another_file_becomes_one_edit_of_the_open_document_and_undo_removes
     same_takes(&document.view(), &before);
     // The same keys as a layer over a take; its bones move as in the take, and the keys of the take stay.
     let (layer_of, over) = (Some(TakeRef::Index(1)), &before.takes[1]);
-    document.send(DocumentMessage::Retarget(RetargetOrder { take: 0, layer_of, pairs, options }));
+    let order = RetargetOrder { take: 0, layer_of, pairs, options };
+    document.send(DocumentMessage::Retarget(order.clone()));
     let layered = document.wait_for_view(|view| view.slots[1].layers().len() == 1);
     assert_eq!(layered.slots[1].layers()[0].settings.name, "walk");
     let keys = |take: &Take| take.tracks.iter().map(|track| track.key_times().len()).collect::<Vec<_>>();
     assert_eq!(keys(&layered.slots[1].layers()[0].keys.result), keys(after.takes.last().unwrap()));
     assert!(keys(over).iter().sum::<usize>() > 0 && layered.takes.len() == before.takes.len());
+    // A second layer of the same take has a name of its own.
+    document.send(DocumentMessage::Retarget(order));
+    let twice = document.wait_for_view(|view| view.slots[1].layers().len() == 2);
+    let names: Vec<&str> = twice.slots[1].layers().iter().map(|layer| &*layer.settings.name).collect();
+    assert!(names.contains(&"walk") && names.contains(&"walk 2"), "{names:?}");
+    document.change(Change::Undo);
     document.change(Change::Undo);
     same_takes(&document.view(), &before);
     // The map goes to a file and back.

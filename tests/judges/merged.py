@@ -183,8 +183,10 @@ def asked(judge, path, looks):
     return poses
 
 
-def renamed(poses, judge):
-    return [{judge.rename(name): point for name, point in pose.items()} for pose in poses]
+def numbered(poses, names):
+    """Returns poses with the numbers of nodes as three.js is asked for them, instead of names."""
+    numbers = {name: f"#{node}" for node, name in names.items()}
+    return [{numbers[name]: point for name, point in pose.items()} for pose in poses]
 
 
 def main():
@@ -219,8 +221,8 @@ def main():
         positions = [file.positions(look.curves, time) for time in look.times]
         own = [{name: pose[node] for node, name in names.items()} for pose in positions]
         mine, theirs = ours[look.index], of_blender[look.index]
-        every, renamed_names = sorted(names.values()), sorted(map(three.rename, names.values()))
-        row = {"three.js": largest(renamed(mine, three), of_three[look.index], look.times, renamed_names),
+        every, numbers = sorted(names.values()), sorted(f"#{node}" for node in names)
+        row = {"three.js": largest(numbered(mine, names), of_three[look.index], look.times, numbers),
                "Blender": largest(mine, theirs, look.times, every)}
         row["components"] = None if look.is_cubic else largest(own, theirs, look.times, every)
         row["baked"] = None

@@ -84,15 +84,24 @@ pub(super) fn computed(
     let facts = format!("{} bones move{feet}", binding.bound());
     let mut add = AddTake::of(base.clone(), &done.take);
     if let Some(over) = &order.layer_of {
-        let layer =
-            AddLayer { tracks: add.tracks, ..AddLayer::new(over.clone(), base.clone(), LayerKind::Override) };
-        return Ok((Box::new(Edit::AddLayer(layer)), format!("Added the layer {base}: {facts}")));
+        let layers = adapter.base(over).map_err(|error| error.to_string())?.layers();
+        let names: Vec<&str> = layers.iter().map(|layer| &*layer.settings.name).collect();
+        let name = unused_name(&base, &names);
+        let text = format!("Added the layer {name}: {facts}");
+        let layer = AddLayer { tracks: add.tracks, ..AddLayer::new(over.clone(), name, LayerKind::Override) };
+        return Ok((Box::new(Edit::AddLayer(layer)), text));
     }
-    let is_used = |name: &str| adapter.slots().iter().any(|slot| slot.original.name == name);
-    let numbered = |number: usize| if number == 1 { base.clone() } else { format!("{base} {number}") };
-    let name = (1..=adapter.slots().len() + 1).map(numbered).find(|name| !is_used(name)).unwrap_or_default();
+    let names: Vec<&str> = adapter.slots().iter().map(|slot| &*slot.original.name).collect();
+    let name = unused_name(&base, &names);
     let text = format!("Added {name}: {facts}");
     let shapes = retarget_expressions(take, &source.model.avatar, target);
     add.name = name;
     Ok((Box::new(Edit::AddTake(add.with_shapes(&shapes))), text))
+}
+
+/// Returns `base`, with the first number that makes it another name than all of `names`; 1 is not written.
+fn unused_name(base: &str, names: &[&str]) -> String {
+    let numbered = |number: usize| if number == 1 { base.to_owned() } else { format!("{base} {number}") };
+    let unused = |name: &String| !names.contains(&name.as_str());
+    (1..=names.len() + 1).map(numbered).find(unused).unwrap_or_default()
 }
