@@ -5,7 +5,7 @@ use dragonfly_sound::{
 };
 use std::error::Error;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("the path of a sound file is missing")?;
@@ -13,11 +13,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let samples = Arc::new(SoundSamples::read(&mut reader, &|| false)?);
     println!("{path}: {:.2} s, {} Hz, {} channels", samples.seconds(), reader.rate(), reader.channels());
     let output = SoundOutput::open()?;
-    let length = Duration::from_secs_f64(samples.seconds());
     let mix = SoundMix::new(MixedSounds::Take { begin: 0.0, samples });
     let clock =
         SoundClock { begun: Instant::now(), time_at: Box::new(|passed| passed.as_secs_f64()), speed: 1.0 };
     output.send(OutputCommand::Play(Box::new(mix), clock))?;
-    std::thread::sleep(length + Duration::from_millis(300));
+    println!("Enter ends it.");
+    std::io::stdin().read_line(&mut String::new())?;
     Ok(())
 }

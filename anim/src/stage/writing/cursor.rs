@@ -154,7 +154,7 @@ fn named<'a>(
         _ => {
             let begins = |token: &ScriptToken| {
                 matches!(token.kind, TokenKind::Comment | TokenKind::Declaration)
-                    || matches!(&*part(token), "<" | "</")
+                    || matches!(part(token), "<" | "</")
             };
             CursorPlace::Element { name, continues: next.is_some_and(|next| !begins(next)), around }
         }

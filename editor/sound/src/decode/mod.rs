@@ -16,6 +16,9 @@ const MOST_CHANNELS: usize = 64;
 /// Bytes at the start of a file by which formats are recognized.
 const START: usize = 16;
 
+/// Begins to decode a file.
+type OpenDecoder = fn(BufReader<File>) -> Result<Box<dyn Decoder>, String>;
+
 /// A format of sound files.
 #[derive(Clone, Copy, Debug)]
 pub struct SoundFormat {
@@ -25,7 +28,7 @@ pub struct SoundFormat {
     pub extensions: &'static [&'static str],
     /// Returns whether the first bytes of a file are those of this format.
     pub sniff: fn(&[u8]) -> bool,
-    open: fn(BufReader<File>) -> Result<Box<dyn Decoder>, String>,
+    open: OpenDecoder,
 }
 
 /// All formats.
