@@ -9,7 +9,7 @@ use glam::{Mat4, Quat, Vec3};
 /// One bone of the chain from the root.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoneStep {
-    /// Position in [`Skeleton::bones`].
+    /// Position in [`Skeleton::bones`](crate::data::Skeleton::bones).
     pub bone: BoneIndex,
     /// As in the file; may be empty.
     pub name: String,
