@@ -3,6 +3,7 @@
 use crate::scene_bench::{FOXES, scene};
 use crate::scene_lines::run;
 use crate::scene_sounds::{LIMIT, forwarding, move_to, peaks, thunder, write_thunder};
+use crate::workbench::Workbench;
 use dragonfly::app::sound_player::{SamplesAnswer, SoundPlayer};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::sound::SoundSettings;
@@ -62,12 +63,18 @@ impl PlayerBench {
     }
 }
 
+/// Returns the scene with a thunder, whose file is in `folder`.
+fn thunder_in(folder: &Folder) -> Workbench {
+    write_thunder(&folder.join("thunder.wav"));
+    let mut bench = scene(&thunder());
+    move_to(&mut bench, folder);
+    bench
+}
+
 #[test]
 fn the_sounds_of_a_scene_play_where_its_script_has_them_until_playback_stops() {
     let folder = Folder::new("scene-audible");
-    write_thunder(&folder.join("thunder.wav"));
-    let mut bench = scene(&thunder());
-    move_to(&mut bench, &folder);
+    let mut bench = thunder_in(&folder);
     bench.state.scene_sounds().receive("thunder.wav", Ok(peaks()));
     bench.state.scene_sounds().receive("none.wav", Err("it is missing".to_owned()));
     let mut window = bench.window();
@@ -98,7 +105,7 @@ fn the_sound_of_a_take_plays_from_its_frame_on() {
     let folder = Folder::new("take-audible");
     let file = folder.join("thunder.wav");
     write_thunder(&file);
-    let mut bench = crate::workbench::Workbench::full();
+    let mut bench = Workbench::full();
     bench.state.execute(Request::FrameRate(24));
     bench.state.execute(Request::Sound(SoundSettings { file: file.clone(), start: 12 }));
     bench.state.sound().read(Ok(peaks()));
@@ -150,9 +157,7 @@ fn without_a_device_one_message_explains_the_silence_of_sounds() {
 #[test]
 fn a_sound_that_cannot_be_played_is_named_and_the_others_play() {
     let folder = Folder::new("scene-some-audible");
-    write_thunder(&folder.join("thunder.wav"));
-    let mut bench = scene(&thunder());
-    move_to(&mut bench, &folder);
+    let mut bench = thunder_in(&folder);
     for name in ["thunder.wav", "none.wav"] {
         bench.state.scene_sounds().receive(name, Ok(peaks()));
     }

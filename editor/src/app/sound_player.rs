@@ -4,7 +4,7 @@ use crate::panels::scene::SceneSound;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{PanelContext, State};
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_document::SoundSource;
+use dragonfly_document::{FileView, SoundSource};
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_runtime::{Address, Job, JobContext};
 use dragonfly_sound::{
@@ -34,8 +34,12 @@ pub struct SoundPlayer {
     /// The samples of each sound; `None` for one that cannot be played.
     samples: BTreeMap<SoundSource, Option<Arc<SoundSamples>>>,
     reading: Option<Job>,
-    /// What the device plays.
-    played: Option<PlayedSounds>,
+    /// The sounds of what is open, found when something plays.
+    sounds: Option<AudibleSounds>,
+    /// Grows when other sounds are open, and when more samples are known.
+    revision: u64,
+    /// The time that the device follows, and the revision of its sounds.
+    played: Option<(PlaybackClock, u64)>,
 }
 
 /// The state of the audio device.
@@ -46,20 +50,11 @@ enum PlayerOutput {
     Failed,
 }
 
-/// Sounds with the time that they follow.
-#[derive(Clone, Debug)]
-struct PlayedSounds {
-    clock: PlaybackClock,
-    sounds: AudibleSounds,
-    /// Number of sounds with samples.
-    known: usize,
-}
-
 /// The sounds of what is open.
 #[derive(Clone, Debug)]
 enum AudibleSounds {
-    /// Those of a scene, in the order of its plan.
-    Scene(Arc<StagePlan>, Vec<SoundSource>),
+    /// Those of a scene, in the order of its plan, and the file in whose folder they are.
+    Scene(Arc<StagePlan>, Arc<FileView>, Vec<SoundSource>),
     /// That of a take, with the time at which it begins, seconds.
     Take(f64, SoundSource),
 }
@@ -71,33 +66,42 @@ impl AudibleSounds {
             let plan = scene.plan.as_ref().filter(|plan| !plan.sounds().is_empty())?;
             let folder = read.model_folder()?;
             let source = |name: &str| SoundSource::Below { folder: folder.clone(), name: name.to_owned() };
-            return Some(Self::Scene(
-                Arc::clone(plan),
-                plan.sounds().iter().map(|sound| source(&sound.source)).collect(),
-            ));
+            let sources = plan.sounds().iter().map(|sound| source(&sound.source)).collect();
+            return Some(Self::Scene(Arc::clone(plan), Arc::clone(&read.view?.file), sources));
         }
         let settings = read.sound.settings();
         read.sound.peaks().filter(|_| settings.is_chosen())?;
-        let begin = f64::from(settings.start) / f64::from(read.frame_rate.max(1));
-        Some(Self::Take(begin, SoundSource::File(settings.file.clone())))
+        Some(Self::Take(begin_of_take(read), SoundSource::File(settings.file.clone())))
     }
 
     fn sources(&self) -> &[SoundSource] {
         match self {
-            Self::Scene(_, sources) => sources,
+            Self::Scene(_, _, sources) => sources,
             Self::Take(_, source) => std::slice::from_ref(source),
         }
     }
 
-    fn is_same(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Scene(plan, sources), Self::Scene(other, others)) => {
-                Arc::ptr_eq(plan, other) && sources == others
+    /// Returns whether these are the sounds of what is open. Allocates nothing.
+    fn is_of(&self, read: &PanelContext<'_>) -> bool {
+        match (self, read.scene()) {
+            (Self::Scene(plan, file, _), Some(scene)) => {
+                let is_same = |own: &Arc<StagePlan>| Arc::ptr_eq(own, plan);
+                scene.plan.as_ref().is_some_and(is_same)
+                    && read.view.is_some_and(|view| Arc::ptr_eq(&view.file, file))
             }
-            (Self::Take(begin, source), Self::Take(other, others)) => begin == other && source == others,
-            (Self::Scene(..), Self::Take(..)) | (Self::Take(..), Self::Scene(..)) => false,
+            (Self::Take(begin, SoundSource::File(file)), None) => {
+                read.sound.peaks().is_some()
+                    && read.sound.settings().file == *file
+                    && begin_of_take(read) == *begin
+            }
+            (Self::Take(..), _) | (Self::Scene(..), None) => false,
         }
     }
+}
+
+/// Returns when the sound of a take begins, seconds.
+fn begin_of_take(read: &PanelContext<'_>) -> f64 {
+    f64::from(read.sound.settings().start) / f64::from(read.frame_rate.max(1))
 }
 
 impl Default for SoundPlayer {
@@ -121,6 +125,8 @@ impl SoundPlayer {
             is_explained: false,
             samples: BTreeMap::new(),
             reading: None,
+            sounds: None,
+            revision: 0,
             played: None,
         }
     }
@@ -129,8 +135,18 @@ impl SoundPlayer {
     pub fn update(&mut self, state: &mut State, to: &Address<SamplesAnswer>) {
         let read = state.read();
         let clock = read.playback;
-        let sounds = AudibleSounds::of(&read).filter(|_| clock.moves(read.now));
-        let Some(sounds) = sounds else { return self.stop() };
+        if !clock.moves(read.now) {
+            return self.stop();
+        }
+        if !self.sounds.as_ref().is_some_and(|sounds| sounds.is_of(&read)) {
+            self.sounds = AudibleSounds::of(&read);
+            let sources = self.sounds.as_ref().map_or(&[][..], AudibleSounds::sources);
+            self.samples.retain(|source, _| sources.contains(source));
+            self.revision += 1;
+        }
+        if self.sounds.is_none() {
+            return self.stop();
+        }
         if matches!(self.output, PlayerOutput::Unopened) {
             self.output = match (self.open)() {
                 Ok(output) => PlayerOutput::Open(output),
@@ -146,14 +162,9 @@ impl SoundPlayer {
         if !matches!(self.output, PlayerOutput::Open(_)) {
             return;
         }
-        self.samples.retain(|source, _| sounds.sources().contains(source));
-        self.read_next(state, &sounds, to);
-        let known = sounds.sources().iter().filter(|source| self.samples_of(source).is_some()).count();
-        let is_same = self.played.as_ref().is_some_and(|played| {
-            played.clock == clock && played.known == known && played.sounds.is_same(&sounds)
-        });
-        if !is_same {
-            self.play(state, PlayedSounds { clock, sounds, known });
+        self.read_next(state, to);
+        if self.played != Some((clock, self.revision)) {
+            self.play(state, clock);
         }
     }
 
@@ -169,6 +180,7 @@ impl SoundPlayer {
             state.say(MessageSeverity::Warning, format!("A sound is not played: {reason}"));
         }
         self.samples.insert(source, samples.ok());
+        self.revision += 1;
     }
 
     fn samples_of(&self, source: &SoundSource) -> Option<&Arc<SoundSamples>> {
@@ -176,10 +188,8 @@ impl SoundPlayer {
     }
 
     /// Reads the next sound whose waveform is known, so that its file can be read.
-    fn read_next(&mut self, state: &State, sounds: &AudibleSounds, to: &Address<SamplesAnswer>) {
-        if self.reading.is_some() {
-            return;
-        }
+    fn read_next(&mut self, state: &State, to: &Address<SamplesAnswer>) {
+        let Some(sounds) = self.sounds.as_ref().filter(|_| self.reading.is_none()) else { return };
         let read = state.read().scene_editing.sounds();
         let is_readable = |source: &SoundSource| match source {
             SoundSource::Below { name, .. } => matches!(read.get(name), Some(SceneSound::Read(_))),
@@ -199,27 +209,27 @@ impl SoundPlayer {
         }
     }
 
-    fn play(&mut self, state: &mut State, now: PlayedSounds) {
+    fn play(&mut self, state: &mut State, clock: PlaybackClock) {
         let samples = |source: &SoundSource| self.samples_of(source).cloned();
-        let sounds = match &now.sounds {
-            AudibleSounds::Scene(plan, sources) => Some(MixedSounds::Scene {
+        let sounds = self.sounds.as_ref().and_then(|sounds| match sounds {
+            AudibleSounds::Scene(plan, _, sources) => Some(MixedSounds::Scene {
                 plan: Arc::clone(plan),
                 samples: sources.iter().map(samples).collect(),
             }),
             AudibleSounds::Take(begin, source) => {
                 samples(source).map(|samples| MixedSounds::Take { begin: *begin, samples })
             }
-        };
+        });
         let command = match sounds {
             Some(sounds) => {
-                let (clock, begun) = (now.clock, Instant::now());
+                let begun = Instant::now();
                 let time_at = move |passed| clock.seconds_at(begun + passed);
                 let clock = SoundClock { begun, time_at: Box::new(time_at), speed: f64::from(clock.speed) };
                 OutputCommand::Play(Box::new(SoundMix::new(sounds)), clock)
             }
             None => OutputCommand::Stop,
         };
-        self.played = Some(now);
+        self.played = Some((clock, self.revision));
         self.send(command, Some(state));
     }
 
