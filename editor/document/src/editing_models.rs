@@ -13,8 +13,9 @@ use super::project_models::ProjectModels;
 use super::scene_model_source::{KeptEdits, SceneModelSource};
 use super::scene_models::SceneModelNews;
 use super::waiting_scene::{OutdatedEdits, OutdatedEditsChoice, SceneModelEdit, WaitingScene};
-use super::{OpenedModel, Source};
+use super::{OpenedModel, SoundSource, Source};
 use crate::text::sentence;
+use dragonfly_anim::stage::time::StageTime;
 use dragonfly_runtime::Address;
 use std::sync::Arc;
 use std::time::Instant;
@@ -27,6 +28,17 @@ impl Document {
         match is_there {
             true => self.changed(),
             false => self.reply(DocumentReply::Refused(format!("The project has no script {name}"))),
+        }
+    }
+
+    /// Takes the length of a sound of the open scene, seconds. One that was read for another scene is ignored.
+    pub(super) fn sound_read(&mut self, source: &SoundSource, seconds: f64) {
+        let Some(open) = &mut self.open else { return };
+        let (SoundSource::Below { folder, name }, Some(scene)) = (source, &mut open.scene) else { return };
+        let is_here = open.file.path.as_ref().or(open.loaded.path.as_ref()).and_then(|path| path.parent())
+            == Some(folder);
+        if is_here && scene.take_sound(name, StageTime::from_seconds(seconds)) {
+            self.changed();
         }
     }
 

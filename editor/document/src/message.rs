@@ -7,7 +7,7 @@ use super::scan::Decision;
 use super::take_check::{CheckedTake, TakeCheck};
 use super::{
     BoneMap, ClipOrder, ExportOrder, ExportReport, LoadedModel, Offer, OutdatedEdits, OutdatedEditsChoice,
-    Progress, Source, UnfitEdit, View,
+    Progress, SoundSource, Source, UnfitEdit, View,
 };
 use dragonfly_store::FileState;
 use std::path::PathBuf;
@@ -52,6 +52,8 @@ pub enum DocumentMessage {
     DecideOutdated(OutdatedEdits, OutdatedEditsChoice),
     /// Shows another script of the open project, by the name of its file.
     ShowScript(String),
+    /// The length in seconds of a sound of the open scene, which was read to be shown: the plan has no other way to know when it ends.
+    SoundRead(SoundSource, f64),
     /// Checks whether another program changed the file.
     LookAtFile,
     /// Searches for unsaved work of earlier sessions, and replies also if there is none.

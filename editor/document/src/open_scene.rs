@@ -11,6 +11,7 @@ use super::scene_view::{SceneModel, SceneView};
 use super::text_source::is_project;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptError, ScriptTree, StageScript};
+use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{LiveStage, StageAssets};
 use dragonfly_runtime::Address;
 use std::collections::{BTreeMap, HashSet};
@@ -119,6 +120,16 @@ impl OpenScene {
     pub(super) fn take(&mut self, news: SceneModelNews) -> bool {
         let changed = self.models.take(news, &mut self.assets);
         if changed {
+            self.planned = None;
+        }
+        changed
+    }
+
+    /// Takes the length of a sound, by the text with which the script names it. Returns whether the scene changed.
+    pub(super) fn take_sound(&mut self, name: &str, length: StageTime) -> bool {
+        let changed = self.assets.sound(name) != Some(length);
+        if changed {
+            self.assets.add_sound(name, length);
             self.planned = None;
         }
         changed

@@ -48,6 +48,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         DocumentMessage::CancelLoading
         | DocumentMessage::Plan(_)
         | DocumentMessage::ShowScript(_)
+        | DocumentMessage::SoundRead(..)
         | DocumentMessage::Search
         | DocumentMessage::ReadSource(_)
         | DocumentMessage::ReadCompared(_)

@@ -3,6 +3,7 @@
 use super::error::GraphicsError;
 use super::message::{GraphicsMessage, Look, PanelsFrame};
 use super::surface::WindowSurface;
+use super::thumbnail::ThumbnailOrder;
 use crate::camera::Camera;
 use crate::pick::region::OwnedRegion;
 use crate::playback::PlaybackClock;
@@ -117,6 +118,11 @@ impl GraphicsHandle {
     /// Requests the bones in a region of the viewport, points from its top left.
     pub fn catch(&self, region: OwnedRegion, ticket: u64) {
         self.send(GraphicsMessage::Catch { region, ticket });
+    }
+
+    /// Requests a small picture of a shot.
+    pub fn draw_thumbnail(&self, order: ThumbnailOrder) {
+        self.send(GraphicsMessage::Thumbnail(order));
     }
 
     /// Resumes drawing the scene after a pause.

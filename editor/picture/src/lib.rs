@@ -16,6 +16,7 @@
 mod appearance;
 mod appearance_sender;
 pub mod batch;
+mod beside;
 mod between;
 pub mod body;
 pub mod camera;
@@ -50,6 +51,7 @@ pub mod surface;
 mod surface_source;
 pub mod target;
 mod texture_memory;
+mod thumbnail;
 mod titles;
 pub mod uniform;
 mod worker;
@@ -74,4 +76,5 @@ pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, S
 pub use pass::{ReferenceAppearance, ReferencePicture, ReferencePlace};
 pub use surface::WindowSurface;
 pub use surface_source::SurfaceSource;
+pub use thumbnail::{Thumbnail, ThumbnailOrder};
 pub use worker::{Drawer, Graphics, Present};

@@ -3,6 +3,7 @@
 use super::appearance::AnyAppearance;
 use super::error::GraphicsError;
 use super::surface::WindowSurface;
+use super::thumbnail::{Thumbnail, ThumbnailOrder};
 use crate::camera::Camera;
 use crate::cast::{PickedThing, ThroughCamera};
 use crate::gizmo::RoleColors;
@@ -182,6 +183,8 @@ pub enum GraphicsMessage {
         /// Returned in the reply.
         ticket: u64,
     },
+    /// Requests a small picture of a shot, which is drawn while nothing moves. The reply is [`GraphicsReply::Thumbnail`].
+    Thumbnail(ThumbnailOrder),
     /// Sets the data of a control or a pass.
     Appearance(AnyAppearance),
     /// Resumes drawing the scene after [`GraphicsReply::Paused`].
@@ -225,6 +228,8 @@ pub enum GraphicsReply {
         /// Ticket of the request.
         ticket: u64,
     },
+    /// Reply to [`GraphicsMessage::Thumbnail`].
+    Thumbnail(Thumbnail),
     /// Statistics of frames; sent at most a few times per second.
     Statistics {
         /// Number of frames since the start.

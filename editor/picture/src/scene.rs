@@ -4,14 +4,15 @@
 
 use super::appearance::Appearances;
 use super::batch::DrawBatch;
-use super::cast::{PosedScene, made_model};
+use super::cast::{PosedScene, ThroughCamera, made_model};
 use super::contact::add_spots;
 use super::control::{ControlFrame, SceneControls};
 use super::draw_set::DrawSet;
 use super::frustum::ViewFrustum;
-use super::message::{Look, Shading};
+use super::message::{Look, SecondView, Shading};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
+use super::thumbnail::ThumbnailOrder;
 use super::uniform::{FrameUniform, LIGHTS, LightUniform, SPOTS};
 use crate::camera::{Camera, CameraRay, Projection};
 use crate::playback::PlaybackClock;
@@ -221,9 +222,27 @@ impl Scene {
     /// without a second view.
     pub(crate) fn prepare_second(&mut self, now: Instant) -> Option<Look> {
         let second = self.look.second.clone().filter(|_| self.cast.is_some())?;
+        Some(self.prepare_beside(second, now))
+    }
+
+    /// Computes everything for a small picture. Returns the look and the playback of the viewport, to be set again after it was drawn.
+    pub(crate) fn prepare_thumbnail(
+        &mut self,
+        order: &ThumbnailOrder,
+        now: Instant,
+    ) -> (Look, PlaybackClock) {
+        let still = PlaybackClock { anchor_time: order.time, ..PlaybackClock::rest(now) };
+        let playback = std::mem::replace(&mut self.playback, still);
+        let [width, height] = order.size;
+        let through = ThroughCamera::Of(Arc::clone(&order.camera));
+        (self.prepare_beside(SecondView { viewport: [0, 0, width, height], through }, now), playback)
+    }
+
+    /// Computes everything for a view beside the viewport, without handles and helpers. Returns the look of the viewport.
+    fn prepare_beside(&mut self, view: SecondView, now: Instant) -> Look {
         let own = Look {
-            viewport: second.viewport,
-            through: second.through,
+            viewport: view.viewport,
+            through: view.through,
             helpers: false,
             skeleton: false,
             second: None,
@@ -233,7 +252,7 @@ impl Scene {
         self.is_second = true;
         self.prepare(now);
         self.is_second = false;
-        Some(look)
+        look
     }
 
     /// The part of the scene that this frame shows, as prepared last.

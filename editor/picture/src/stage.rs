@@ -42,7 +42,7 @@ pub enum DeviceEvent {
 
 /// Parts of the window that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum DrawMode {
+pub(super) enum DrawMode {
     /// Everything.
     All,
     /// The panels only, because drawing the scene seems to cause the losses.
@@ -52,7 +52,7 @@ enum DrawMode {
 }
 
 /// A frame between opening and presenting.
-struct OpenFrame {
+pub(super) struct OpenFrame {
     commands: FrameCommands,
     pass: Option<(PassLayer, wgpu::RenderPass<'static>)>,
     window: Option<wgpu::TextureView>,
@@ -66,19 +66,19 @@ pub struct RenderStage {
     /// The first field, because fields are dropped in order: a frame that was opened and never presented is returned
     /// to a surface that still exists.
     frame: Option<OpenFrame>,
-    device: Device,
+    pub(super) device: Device,
     /// The scene; code that changes it calls [`Self::touch_scene`].
     pub scene: Scene,
-    passes: Passes,
+    pub(super) passes: Passes,
     target: Option<SceneTarget>,
     /// The second view.
-    second: Option<SceneTarget>,
-    window_size: [u32; 2],
+    pub(super) second: Option<SceneTarget>,
+    pub(super) window_size: [u32; 2],
     scene_changed: bool,
     window_changed: bool,
     /// A texture that replaces the window in the next frame.
     stand_in: Option<wgpu::Texture>,
-    mode: DrawMode,
+    pub(super) mode: DrawMode,
     events: Vec<DeviceEvent>,
     frames: u64,
 }
@@ -185,6 +185,11 @@ impl RenderStage {
         self.passes.model.borrow_mut().take_warnings()
     }
 
+    /// Returns whether images of models wait for the next frames.
+    pub fn is_loading(&self) -> bool {
+        self.passes.model.borrow().is_loading()
+    }
+
     /// Number of frames presented so far.
     pub fn frames(&self) -> u64 {
         self.frames
@@ -267,8 +272,7 @@ impl RenderStage {
             self.frames += 1;
             self.window_changed = false;
             // While images are loaded, every frame shows more of them.
-            self.scene_changed =
-                self.scene_changed && !draws_scene || self.passes.model.borrow().is_loading();
+            self.scene_changed = self.scene_changed && !draws_scene || self.is_loading();
         }
         done
     }
@@ -355,42 +359,6 @@ impl RenderStage {
         self.events.push(DeviceEvent::Paused(reason));
     }
 
-    /// Draws the second view, if there is one, before the frame: the passes prepare it and are then prepared for the viewport. Returns `false` when the device
-    /// counts as lost.
-    fn draw_second(&mut self, now: Instant) -> bool {
-        let Some([_, _, width, height]) = self.scene.look.second.as_ref().map(|second| second.viewport)
-        else {
-            self.second = None;
-            return true;
-        };
-        let look = if width == 0 || height == 0 { None } else { self.scene.prepare_second(now) };
-        let Some(look) = look else {
-            self.second = None;
-            return true;
-        };
-        let drawn = caught(|| {
-            let gpu = self.device.gpu();
-            let size = [width, height].map(|side| side.min(gpu.max_side));
-            if self.second.as_ref().is_none_or(|target| target.size() != size) {
-                self.second = Some(SceneTarget::new(gpu, size));
-            }
-            let Some(target) = &self.second else { return };
-            gpu.write_frame(self.scene.uniform());
-            let encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut commands = FrameCommands { encoder, before: Vec::new() };
-            let around = self.surroundings(self.window_size);
-            let of_scene =
-                || self.passes.list.iter().filter(|pass| pass.borrow().layer() == PassLayer::Scene);
-            of_scene().for_each(|pass| pass.borrow_mut().prepare(&around, &mut commands));
-            let mut open = target.begin(&mut commands.encoder);
-            of_scene().for_each(|pass| pass.borrow_mut().draw(&around, &mut open));
-            drop(open);
-            gpu.queue.submit(commands.before.into_iter().chain([commands.encoder.finish()]));
-        });
-        self.scene.look = look;
-        self.keep(drawn.map(|()| None))
-    }
-
     fn open_frame(&mut self, draws_scene: bool) -> bool {
         let mut surface_texture = None;
         let window = if let Some(texture) = &self.stand_in {
@@ -460,7 +428,7 @@ impl RenderStage {
         }
     }
 
-    fn surroundings(&self, window_size: [u32; 2]) -> Surroundings<'_> {
+    pub(super) fn surroundings(&self, window_size: [u32; 2]) -> Surroundings<'_> {
         Surroundings {
             gpu: self.device.gpu(),
             scene: &self.scene,
@@ -485,7 +453,7 @@ impl RenderStage {
     }
 
     /// Keeps the frame after a successful step; after a panic the frame is dropped and the device counts as lost.
-    fn keep(&mut self, step: Result<Option<OpenFrame>, String>) -> bool {
+    pub(super) fn keep(&mut self, step: Result<Option<OpenFrame>, String>) -> bool {
         match step {
             Ok(frame) => {
                 self.frame = frame;

@@ -10,12 +10,14 @@ use super::pass::SharedPass;
 use super::pick::{pick, pick_region};
 use super::stage::{DeviceEvent, FrameOpening, RenderStage};
 use super::surface::WindowSurface;
+use super::thumbnail::ThumbnailOrder;
 use super::{GraphicsHandle, Look};
 use crate::camera::Camera;
 use crate::playback::PlaybackClock;
 use dragonfly_document::{FaultInjection, FaultPoint, View};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -38,6 +40,7 @@ pub struct Graphics {
     /// Messages that arrived before the device was ready.
     waiting: Vec<GraphicsMessage>,
     captures: Vec<PathBuf>,
+    thumbnails: VecDeque<ThumbnailOrder>,
     statistics: Rc<RefCell<Statistics>>,
     failed: bool,
     faults: FaultInjection,
@@ -102,6 +105,7 @@ impl Graphics {
                 stage: None,
                 waiting: vec![GraphicsMessage::Resized(size)],
                 captures: Vec::new(),
+                thumbnails: VecDeque::new(),
                 statistics: Rc::default(),
                 failed: false,
                 faults,
@@ -220,6 +224,22 @@ impl Graphics {
         }
     }
 
+    /// Draws the next small picture, unless something moves: one in an iteration, so that what is urgent does not wait for all.
+    fn draw_thumbnail(&mut self, stage: &mut RenderStage, thread: &mut Context) {
+        let now = thread.now();
+        if stage.moves(now) {
+            return;
+        }
+        let drawn = self.thumbnails.front().and_then(|order| stage.thumbnail(order, now));
+        if let Some(thumbnail) = drawn {
+            self.thumbnails.pop_front();
+            self.reply(GraphicsReply::Thumbnail(thumbnail));
+            if !self.thumbnails.is_empty() {
+                thread.iterate_again();
+            }
+        }
+    }
+
     fn tell_events(&self, stage: &mut RenderStage) {
         for event in stage.take_events() {
             let losses = stage.device().losses();
@@ -304,6 +324,7 @@ impl Graphics {
                 let things = stage.scene.things_in(&region.region());
                 self.reply(GraphicsReply::PickedAll { bones, things, ticket });
             }
+            GraphicsMessage::Thumbnail(order) => self.thumbnails.push_back(order),
             GraphicsMessage::Appearance(appearance) => {
                 stage.scene.appearances.receive(appearance);
                 stage.touch_scene();
@@ -344,6 +365,7 @@ impl Worker for Graphics {
             stage.device().lose();
             stage.touch_window();
         }
+        self.draw_thumbnail(stage, thread);
         if !stage.wants_frame(now) {
             return false;
         }
@@ -361,7 +383,7 @@ impl Worker for Graphics {
         match opened {
             FrameOpening::Frame => {
                 self.statistics.borrow_mut().opened = Some(now);
-                if stage.moves(now) {
+                if stage.moves(now) || !self.thumbnails.is_empty() {
                     thread.iterate_again();
                 }
                 true

@@ -104,6 +104,7 @@ impl EditorRuntime {
             {
                 let mut interface = running.parts.interface.borrow_mut();
                 interface.update_reference(&running.references);
+                interface.update_thumbnails();
                 interface.update_sound(&running.sounds, &running.scene_sounds, &running.samples);
             }
             let interface = running.parts.interface.borrow();
@@ -294,6 +295,11 @@ impl BaseRuntime for EditorRuntime {
                     Some((_, Asked::Click(at, choice))) => interface.state.picked(at, &bones, choice),
                     Some((_, Asked::Region(choice))) => interface.state.caught(&bones, choice),
                     None => return,
+                }
+            }
+            GraphicsReply::Thumbnail(thumbnail) => {
+                if !interface.thumbnail_drawn(thumbnail) {
+                    return;
                 }
             }
             GraphicsReply::Statistics { milliseconds, .. } => {

@@ -6,6 +6,7 @@ use super::accessibility_trace::AccessibilityTrace;
 use super::pointer_place;
 use super::reference_loader::{ReferenceAnswer, ReferenceLoader};
 use super::scene_sounds::{SceneSoundAnswer, SceneSoundLoader};
+use super::scene_thumbnails::ThumbnailLoader;
 use super::sound_loader::{SoundAnswer, SoundLoader};
 use super::sound_player::{SamplesAnswer, SoundPlayer};
 use super::state_trace::StateTrace;
@@ -22,7 +23,7 @@ use dragonfly_document::edit::Edit;
 use dragonfly_document::{DocumentMessage, FaultInjection, FaultPoint};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
-use dragonfly_picture::{GraphicsHandle, PanelsFrame};
+use dragonfly_picture::{GraphicsHandle, PanelsFrame, Thumbnail};
 use dragonfly_runtime::{Address, Context, Worker};
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -77,6 +78,7 @@ pub struct Interface {
     sound: SoundLoader,
     scene_sounds: SceneSoundLoader,
     sound_player: SoundPlayer,
+    thumbnails: ThumbnailLoader,
 }
 
 impl Interface {
@@ -122,6 +124,7 @@ impl Interface {
             sound: SoundLoader::default(),
             scene_sounds: SceneSoundLoader::default(),
             sound_player: SoundPlayer::default(),
+            thumbnails: ThumbnailLoader::default(),
         }
     }
 
@@ -327,6 +330,19 @@ impl Interface {
         self.sound_player.update(&mut self.state, samples);
     }
 
+    /// Asks for the next picture of a shot.
+    pub(super) fn update_thumbnails(&mut self) {
+        let order = self.thumbnails.update(&mut self.state);
+        if let Some((graphics, order)) = self.graphics.as_ref().zip(order) {
+            graphics.draw_thumbnail(order);
+        }
+    }
+
+    /// Receives a picture of a shot. Returns whether there is something new to show.
+    pub(super) fn thumbnail_drawn(&mut self, thumbnail: Thumbnail) -> bool {
+        self.thumbnails.receive(&mut self.state, thumbnail)
+    }
+
     /// Receives the samples of a sound.
     pub(super) fn samples_answered(&mut self, answer: SamplesAnswer) {
         self.sound_player.receive(&mut self.state, answer);
@@ -334,7 +350,8 @@ impl Interface {
 
     /// Receives the answer of a job about a sound of a scene.
     pub(super) fn scene_sound_answered(&mut self, answer: SceneSoundAnswer) {
-        self.scene_sounds.receive(&mut self.state, answer);
+        let message = self.scene_sounds.receive(&mut self.state, answer);
+        self.effects.extend(message.map(|message| Effect::File(FileAction::Send(message))));
     }
 
     /// Receives the answer of a job about the sound.

@@ -26,6 +26,7 @@ mod reference_loader;
 mod replies;
 pub mod scene_maker;
 pub mod scene_sounds;
+pub mod scene_thumbnails;
 mod signals;
 mod sound_loader;
 pub mod sound_player;

@@ -2,7 +2,7 @@
 
 use crate::panels::State;
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_document::{SoundPeaks, SoundSource};
+use dragonfly_document::{DocumentMessage, SoundPeaks, SoundSource};
 use dragonfly_runtime::{Address, Job, JobContext};
 use std::sync::Arc;
 
@@ -50,12 +50,20 @@ impl SceneSoundLoader {
         }
     }
 
-    /// Receives the answer of a job. The bar of a sound that cannot be read shows why.
-    pub fn receive(&mut self, state: &mut State, (opened, source, peaks): SceneSoundAnswer) {
+    /// Receives the answer of a job. The bar of a sound that cannot be read shows why. Returns the message for the document, which plans
+    /// the end of the sound.
+    pub fn receive(
+        &mut self,
+        state: &mut State,
+        (opened, source, peaks): SceneSoundAnswer,
+    ) -> Option<DocumentMessage> {
         if opened != state.read().scene_editing.sounds().opened() {
-            return;
+            return None;
         }
         self.reading = None;
+        let seconds = peaks.as_ref().ok().map(SoundPeaks::seconds);
         state.scene_sounds().receive(&source, peaks);
+        let folder = state.read().model_folder()?;
+        Some(DocumentMessage::SoundRead(SoundSource::Below { folder, name: source }, seconds?))
     }
 }

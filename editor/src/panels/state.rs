@@ -8,7 +8,7 @@ use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
 use super::reference::ReferenceTrack;
 use super::request::{Effect, Request};
-use super::scene::SceneSounds;
+use super::scene::{SceneSounds, SceneThumbnails};
 use super::settings::Settings;
 use super::side_files::SideFiles;
 use super::sound::SoundTrack;
@@ -201,6 +201,11 @@ impl State {
     /// Returns the sounds of the scene, to which the program around the panels adds what it read.
     pub fn scene_sounds(&mut self) -> &mut SceneSounds {
         self.workspace.scene.sounds_mut()
+    }
+
+    /// Returns the pictures of the shots, to which the program around the panels adds what was drawn.
+    pub fn thumbnails(&mut self) -> &mut SceneThumbnails {
+        self.workspace.scene.thumbnails_mut()
     }
 
     /// Shows the poses of the library.

@@ -5,6 +5,7 @@ use super::line_editing::{LineEditing, MarkedThings};
 use super::request::ScriptChange;
 use super::sounds::SceneSounds;
 use super::thing_selection::ThingSelection;
+use super::thumbnails::SceneThumbnails;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::lanes::SceneLanes;
@@ -34,6 +35,7 @@ pub struct SceneEditing {
     lanes: Arc<SceneLanes>,
     lines: LineEditing,
     sounds: SceneSounds,
+    thumbnails: SceneThumbnails,
     /// The newest text that was asked for and not passed on yet.
     proposed: Option<Arc<str>>,
     /// The newest text that was sent and not answered yet.
@@ -67,6 +69,7 @@ impl Default for SceneEditing {
             lanes: Arc::default(),
             lines: LineEditing::default(),
             sounds: SceneSounds::default(),
+            thumbnails: SceneThumbnails::default(),
             proposed: None,
             sent: None,
             gesture: None,
@@ -145,6 +148,15 @@ impl SceneEditing {
 
     pub(in crate::panels) fn sounds_mut(&mut self) -> &mut SceneSounds {
         &mut self.sounds
+    }
+
+    /// Returns the pictures of the shots, as far as they were drawn.
+    pub fn thumbnails(&self) -> &SceneThumbnails {
+        &self.thumbnails
+    }
+
+    pub(in crate::panels) fn thumbnails_mut(&mut self) -> &mut SceneThumbnails {
+        &mut self.thumbnails
     }
 
     /// Returns the lines as they are edited.

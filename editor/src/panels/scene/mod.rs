@@ -26,6 +26,7 @@ mod sounds;
 mod template;
 mod thing_icon;
 mod thing_selection;
+mod thumbnails;
 pub mod timeline;
 mod viewport;
 
@@ -39,4 +40,5 @@ pub use request::{LineRequest, SceneRequest, ScriptChange};
 pub use sounds::{SceneSound, SceneSounds};
 pub(in crate::panels) use template::NO_LINES;
 pub use template::{duel_text, free_name, project_texts};
+pub use thumbnails::{SceneThumbnails, ShotKey};
 pub use viewport::SceneViewport;

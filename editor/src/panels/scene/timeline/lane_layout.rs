@@ -1,12 +1,14 @@
 //! Positions of lanes and bars, and the part of a bar at a point: pure arithmetic.
 
 use crate::panels::keys::TimeScale;
-use dragonfly_anim::stage::lanes::{SceneBar, SceneLane, SceneLanes};
+use dragonfly_anim::stage::lanes::{LaneSubject, SceneBar, SceneLane, SceneLanes};
 use egui::{Pos2, Rect, pos2};
 
 /// Height of the first row of a lane, and of each further one.
 const MAIN_ROW: f32 = 24.0;
 const ROW: f32 = 19.0;
+/// Height of the first row of the lane of shots, whose bars have pictures.
+const SHOT_ROW: f32 = 44.0;
 /// Gap below a lane.
 const GAP: f32 = 1.0;
 /// Width of the ends of a bar by which it is trimmed, and the least width of a bar that has them.
@@ -51,10 +53,11 @@ pub enum SceneHit {
     Nothing,
 }
 
-/// The tops of the lanes, from the top of the first one.
+/// The tops of the lanes, from the top of the first one, and the heights of their first rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneLaneLayout {
     tops: Vec<f32>,
+    mains: Vec<f32>,
 }
 
 impl SceneLaneLayout {
@@ -67,7 +70,7 @@ impl SceneLaneLayout {
             top += height_of(lane);
         }
         tops.push(top);
-        Self { tops }
+        Self { tops, mains: lanes.list.iter().map(main_row).collect() }
     }
 
     /// Returns the height of all lanes, points.
@@ -84,8 +87,8 @@ impl SceneLaneLayout {
     /// Returns the rectangle of a bar; `top` is where the first lane would be.
     pub fn bar(&self, lane: usize, bar: &SceneBar, top: f32, scale: &TimeScale) -> Rect {
         let [lane_top, _] = self.span(lane);
-        let (row, height) =
-            if bar.row == 0 { (0.0, MAIN_ROW) } else { (MAIN_ROW + (bar.row - 1) as f32 * ROW, ROW) };
+        let main = self.mains.get(lane).copied().unwrap_or(MAIN_ROW);
+        let (row, height) = if bar.row == 0 { (0.0, main) } else { (main + (bar.row - 1) as f32 * ROW, ROW) };
         let y = top + lane_top + row;
         let (from, to) = (scale.x_of(bar.begin.seconds() as f32), scale.x_of(bar.end.seconds() as f32));
         if bar.is_instant() {
@@ -113,8 +116,16 @@ impl SceneLaneLayout {
     }
 }
 
+/// Returns the height of the first row of a lane.
+fn main_row(lane: &SceneLane) -> f32 {
+    match lane.subject == LaneSubject::Shots {
+        true => SHOT_ROW,
+        false => MAIN_ROW,
+    }
+}
+
 fn height_of(lane: &SceneLane) -> f32 {
-    MAIN_ROW + lane.rows.saturating_sub(1) as f32 * ROW + GAP
+    main_row(lane) + lane.rows.saturating_sub(1) as f32 * ROW + GAP
 }
 
 /// Returns the part of a bar at a point, apart from handles of fades.

@@ -10,6 +10,7 @@ mod paint;
 mod ruler;
 mod sheet;
 mod snap;
+mod thumbnail;
 mod waveform;
 
 use super::super::context::PanelContext;
@@ -25,9 +26,9 @@ use dragonfly_document::SceneView;
 use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 pub use lane_layout::{SceneBarPart, SceneHit, SceneLaneLayout};
+use paint::BarContents;
 use sheet::SceneSheet;
 pub use snap::snapped_time;
-use waveform::SceneWaveforms;
 
 /// Width of the names of the lanes.
 const GUTTER: f32 = 150.0;
@@ -44,7 +45,7 @@ pub struct SceneTimeline {
     drag: BarDragging,
     scrub: dope::Scrub,
     menu: lane_menu::SceneMenu,
-    waveforms: SceneWaveforms,
+    contents: BarContents,
 }
 
 impl Panel for SceneTimeline {
@@ -154,7 +155,7 @@ impl SceneTimeline {
         };
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         paint::lanes(&painter, &sheet);
-        paint::bars(&painter, &sheet, self.drag.hovered(), &mut self.waveforms);
+        paint::bars(&painter, &sheet, self.drag.hovered(), &mut self.contents);
         self.drag.update(ui, &response, &sheet, requests);
         self.menu.show(&response, &self.drag, &sheet, requests);
         ruler::show(&mut self.scrub, ui, &painter, &sheet, &mut moved);

@@ -2,6 +2,7 @@
 
 use super::lane_layout::{SceneHit, fade_handles};
 use super::sheet::SceneSheet;
+use super::thumbnail::ShotTextures;
 use super::waveform::{SceneWaveforms, sound_of};
 use crate::panels::scene::SceneSound;
 use crate::panels::theme::Theme;
@@ -11,6 +12,13 @@ use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, 
 
 /// Most lines for repetitions that are drawn in a bar.
 const MOST_REPETITIONS: usize = 200;
+
+/// What is drawn in bars and kept for the next frame.
+#[derive(Debug, Default)]
+pub(super) struct BarContents {
+    waveforms: SceneWaveforms,
+    shots: ShotTextures,
+}
 
 /// Draws the beds of the lanes and the lines of time.
 pub(super) fn lanes(painter: &Painter, sheet: &SceneSheet<'_>) {
@@ -48,9 +56,10 @@ pub(super) fn bars(
     painter: &Painter,
     sheet: &SceneSheet<'_>,
     hovered: Option<SceneHit>,
-    waveforms: &mut SceneWaveforms,
+    contents: &mut BarContents,
 ) {
-    waveforms.begin_frame();
+    contents.waveforms.begin_frame();
+    contents.shots.begin_frame();
     let painter = painter.with_clip_rect(sheet.canvas.intersect(painter.clip_rect()));
     let top = sheet.canvas.top() - sheet.scroll;
     for (index, lane) in sheet.lanes.list.iter().enumerate() {
@@ -67,7 +76,7 @@ pub(super) fn bars(
                 let is_hovered =
                     matches!(hovered, Some(SceneHit::Bar { action, .. }) if action == bar.action);
                 let state = BarState { is_hovered, is_dim };
-                draw_bar(&painter, sheet, (lane, bar, rect), state, waveforms);
+                draw_bar(&painter, sheet, (lane, bar, rect), state, contents);
                 if let Some((_, other)) =
                     before.filter(|(other, _)| bar.is_main && other.is_main && bar.kind != "shot")
                 {
@@ -106,7 +115,7 @@ fn draw_bar(
     sheet: &SceneSheet<'_>,
     (lane, bar, rect): (&SceneLane, &SceneBar, Rect),
     BarState { is_hovered, is_dim }: BarState,
-    waveforms: &mut SceneWaveforms,
+    contents: &mut BarContents,
 ) {
     let theme = sheet.theme;
     let is_selected = sheet.context.scene_editing.action() == Some(bar.action);
@@ -120,7 +129,8 @@ fn draw_bar(
     painter.rect_filled(rect, radius, theme.sunken);
     let fill = color.gamma_multiply(if is_hovered || is_selected { 0.42 } else { 0.30 });
     painter.rect_filled(rect, radius, fill);
-    waveforms.show(painter, sheet, bar, rect, color.gamma_multiply(0.8));
+    contents.waveforms.show(painter, sheet, bar, rect, color.gamma_multiply(0.8));
+    let beside = contents.shots.show(painter, sheet, bar, rect);
     fades(painter, sheet, bar, rect, color);
     for time in bar.repetitions(MOST_REPETITIONS) {
         let x = sheet.scale.x_of(time.seconds() as f32);
@@ -147,7 +157,7 @@ fn draw_bar(
             vec![pos2(x - 4.0, rect.bottom()), pos2(x + 4.0, rect.bottom()), pos2(x, rect.bottom() - 6.0)];
         painter.add(Shape::convex_polygon(corners, theme.warning, Stroke::NONE));
     }
-    let shown = rect.intersect(sheet.canvas);
+    let shown = beside.intersect(sheet.canvas);
     if shown.width() > 18.0 {
         let color = if is_dim { theme.faint } else { theme.text };
         match sound_of(sheet, bar) {
