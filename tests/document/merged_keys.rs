@@ -74,7 +74,10 @@ fn a_merge_adds_keys_on_whole_frames_only_and_each_frame_looks_as_before() {
         }
     }
     let mut model = faded("additive");
-    let refused = model
-        .apply(&serde_json::from_str(r#"{"edit":"merge_layers","take":"Walk","rate":-5}"#).expect("an edit"));
-    assert!(refused.is_err());
+    // At the largest of these, several keys would be at one time.
+    for rate in ["-5", "0", "1000.5", "3e38"] {
+        let edit = format!(r#"{{"edit":"merge_layers","take":"Walk","rate":{rate}}}"#);
+        let refused = model.apply(&serde_json::from_str(&edit).expect("an edit"));
+        assert!(refused.is_err(), "{rate}");
+    }
 }

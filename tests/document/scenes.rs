@@ -3,7 +3,8 @@
 use dragonfly_document::edit::{Edit, EditScript, ScriptSplice};
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{
-    Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, SceneModel, SceneView, View,
+    Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, SceneModel, SceneView, SoundSource,
+    View,
 };
 use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::Folder;
@@ -82,6 +83,31 @@ fn a_model_that_is_there_later_is_read_when_the_files_are_looked_at() {
         "now that its takes are known"
     );
     assert!(matches!(scene_of(&view).models["props/ball.glb"], SceneModel::Loaded(_)));
+}
+
+#[test]
+fn a_sound_ends_with_its_file_once_its_length_is_known_and_before_that_with_the_scene() {
+    let folder = Folder::new("scene-sound-length");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let path = scene(&folder);
+    let sound = "<sound src=\"thunder.wav\" begin=\"0.25\" repeat=\"2\"/>";
+    fs::write(&path, SCENE.replace("</script>", &format!("{sound}</script>"))).expect("a file");
+    document.open(&path);
+    let stop = |view: &View| scene_of(view).plan.as_ref().map(|plan| plan.sounds()[0].stop().seconds());
+    let view = document.wait_for_view(is_settled);
+    assert_eq!(stop(&view), Some(2.0), "it may be as long as the scene");
+    let read = |folder: &Folder, name: &str| {
+        let source = SoundSource::Below { folder: folder.path().to_owned(), name: name.to_owned() };
+        DocumentMessage::SoundRead(source, 0.5)
+    };
+    document.send(read(&Folder::new("scene-sound-other"), "thunder.wav"));
+    document.send(DocumentMessage::SoundRead(SoundSource::File(folder.join("thunder.wav")), 0.5));
+    document.edit(replaced(&scene_of(&view).text, "0.25", "0.5"));
+    let view = document.wait_for_view(|view| view.history.done == 1);
+    assert_eq!(stop(&view), Some(2.0), "sounds of another folder, and those of a take, are others");
+    document.send(read(&folder, "thunder.wav"));
+    let view = document.wait_for_view(|view| stop(view) != Some(2.0));
+    assert_eq!((stop(&view), view.history.done), (Some(1.5), 1), "half a second, twice");
 }
 
 #[cfg(unix)]

@@ -101,6 +101,7 @@ mod scene_script;
 mod scene_second_view;
 mod scene_shots;
 mod scene_sounds;
+mod scene_thumbnails;
 mod scene_timeline;
 mod scene_viewport;
 mod screen;

@@ -6,7 +6,7 @@ use crate::workbench::{Window, Workbench};
 use dragonfly::app::scene_sounds::{SceneSoundAnswer, SceneSoundLoader};
 use dragonfly::panels::scene::{SceneRequest, SceneSound};
 use dragonfly::panels::{Request, State};
-use dragonfly_document::{Cancel, FileView, SoundPeaks, SoundSource, View};
+use dragonfly_document::{Cancel, DocumentMessage, FileView, SoundPeaks, SoundSource, View};
 use dragonfly_kit::folder::Folder;
 use dragonfly_runtime::{Address, Context, Receiver, Thread};
 use egui_kittest::kittest::Queryable;
@@ -72,12 +72,13 @@ pub(crate) fn move_to(bench: &mut Workbench, folder: &Folder) {
     bench.state.show(View { file: Arc::new(file), generation: view.generation + 1, ..view });
 }
 
-/// Reads all sounds of a scene that are wanted.
+/// Reads all sounds of a scene that are wanted. Returns the messages for the document.
 fn read_all(
     loader: &mut SceneSoundLoader,
     state: &mut State,
     (address, answers): (&Address<SceneSoundAnswer>, &mpsc::Receiver<SceneSoundAnswer>),
-) {
+) -> Vec<DocumentMessage> {
+    let mut messages = Vec::new();
     loader.update(state, address);
     let is_read = |state: &State, name: &str| {
         !matches!(state.read().scene_editing.sounds().get(name), None | Some(SceneSound::Reading))
@@ -88,9 +89,10 @@ fn read_all(
     };
     while names(state).iter().any(|name| !is_read(state, name)) {
         let answer = answers.recv_timeout(LIMIT).expect("each sound is answered");
-        loader.receive(state, answer);
+        messages.extend(loader.receive(state, answer));
         loader.update(state, address);
     }
+    messages
 }
 
 /// Returns what is known of a sound: `reading`, `read`, or the reason why it cannot be read.
@@ -117,7 +119,9 @@ fn a_sound_that_is_a_pipe_or_outside_of_the_folder_is_refused_and_the_others_are
     let mut bench = scene(&FOXES.replace("    <title", &format!("{sounds}    <title")));
     move_to(&mut bench, &folder);
     let (_thread, address, answers) = forwarding();
-    read_all(&mut SceneSoundLoader::default(), &mut bench.state, (&address, &answers));
+    let messages = read_all(&mut SceneSoundLoader::default(), &mut bench.state, (&address, &answers));
+    let thunder = SoundSource::Below { folder: folder.path().to_owned(), name: "thunder.wav".to_owned() };
+    assert_eq!(messages, [DocumentMessage::SoundRead(thunder, 0.5)], "the document is sent the length");
     let known = |name: &str| known(&bench.state, name);
     assert_eq!(known("pipe.wav"), "pipe.wav is a pipe, not a regular file");
     assert_eq!(known("link.wav"), "link.wav leads out of the model's folder");

@@ -15,7 +15,8 @@ use dragonfly_picture::pick::OwnedRegion;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::scene::Scene;
 use dragonfly_picture::{
-    DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame, PickedThing,
+    DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame, PickedThing, Thumbnail,
+    ThumbnailOrder,
 };
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
 use glam::{Vec2, Vec3};
@@ -315,6 +316,41 @@ fn a_click_on_a_scene_is_answered_with_the_thing_and_its_bone() {
     let anna = || thing("anna", Some(1));
     let both = vec![thing("anna", None), thing("ben", None)];
     assert_eq!(answers, [(None, vec![anna()], 7), (None, vec![anna()], 8), (None, both, 9)]);
+}
+
+#[test]
+fn pictures_of_shots_wait_while_something_moves_and_are_drawn_one_in_an_iteration() {
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
+    let view = scenes::view(&scenes::arms());
+    let plan = view.plan.clone().unwrap();
+    bench.graphics.show(View { scene: Some(view), ..View::opened(1, arm::loaded()) });
+    let clock = PlaybackClock::of_scene(2.0, Instant::now());
+    bench.graphics.play(PlaybackClock { playing: true, ..clock });
+    for camera in ["wide", "close"] {
+        let order = ThumbnailOrder { camera: camera.into(), time: 0.5, size: [48, 27] };
+        bench.graphics.draw_thumbnail(order);
+    }
+    let thumbnails = |bench: &mut GraphicsBench| -> Vec<Thumbnail> {
+        let drawn = bench.take().into_iter().filter_map(|reply| match reply {
+            GraphicsReply::Thumbnail(thumbnail) => Some(thumbnail),
+            _ => None,
+        });
+        drawn.collect()
+    };
+    for _ in 0..5 {
+        bench.turn();
+    }
+    assert_eq!(thumbnails(&mut bench).len(), 0, "it plays");
+    bench.graphics.play(clock);
+    bench.turn();
+    assert_eq!(thumbnails(&mut bench).len(), 1, "one, and then what else there is to do");
+    bench.settle();
+    let [thumbnail] = &thumbnails(&mut bench)[..] else { panic!("the other one") };
+    assert_eq!(
+        (&*thumbnail.order.camera, Arc::ptr_eq(thumbnail.plan.as_ref().unwrap(), &plan)),
+        ("close", true)
+    );
+    assert_eq!(thumbnail.picture.as_ref().map(RgbaImage::dimensions), Some((48, 27)));
 }
 
 #[test]

@@ -14,14 +14,17 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+/// Largest number of frames per second on which keys are added.
+const MOST_RATE: f32 = 1000.0;
+
 /// Merges a layer into the one below it; the same is shown then at each frame. Keys are where take and layers have some, and on whole frames. Where the edit names a take, all its layers become keys of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MergeLayers {
     /// The layer to merge with the one below it, the lowest one with the take; or the take, to merge all.
     pub take: TakeRef,
-    /// Frames per second on which keys are added that are needed between those of take and layers; if absent, they are added halfway
-    /// between others.
+    /// Frames per second on which keys are added that are needed between those of take and layers, at most 1000; if absent, they are
+    /// added halfway between others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
 }
@@ -97,7 +100,8 @@ fn into_take(work: &mut Transaction, take: TakeId, count: usize, rate: Option<f3
 fn added_keys(rate: Option<f32>) -> Result<AddedKeys, EditError> {
     let Some(rate) = rate else { return Ok(AddedKeys::Halfway) };
     let rate = finite("the frame rate", rate)?;
-    match rate > 0.0 {
+    // More than this would be more than one key at a time of single precision.
+    match rate > 0.0 && rate <= MOST_RATE {
         true => Ok(AddedKeys::OnFrames(rate)),
         false => Err(EditError::Number { what: "the frame rate", value: rate }),
     }
