@@ -2,8 +2,7 @@
 
 use super::assets::StageAssets;
 use super::plan::StagePlan;
-use super::project::StageProject;
-use super::script::{ScriptError, StageScript};
+use super::script::{ScriptContext, ScriptError, StageScript};
 use std::sync::Arc;
 
 /// The newest plan of a script that worked, and what is wrong with its newest text.
@@ -17,17 +16,17 @@ pub struct LiveStage {
 impl LiveStage {
     /// Reads and plans a new text. Returns whether it worked; otherwise the plan stays the one before, and [`Self::errors`] has the reasons.
     pub fn update(&mut self, text: impl Into<Arc<str>>, assets: &StageAssets) -> bool {
-        self.update_of(text, None, assets)
+        self.update_in(text, &ScriptContext::default(), assets)
     }
 
-    /// Reads and plans a new text of a script of a project, as [`Self::update`] does.
-    pub fn update_of(
+    /// Reads and plans a new text of a script of a project, or one that includes others, as [`Self::update`] does.
+    pub fn update_in(
         &mut self,
         text: impl Into<Arc<str>>,
-        project: Option<&StageProject>,
+        context: &ScriptContext,
         assets: &StageAssets,
     ) -> bool {
-        let planned = StageScript::read_of(text, project).and_then(|script| {
+        let planned = StageScript::read_in(text, context).and_then(|script| {
             let plan = StagePlan::new(&script, assets)?;
             Ok((script, plan))
         });

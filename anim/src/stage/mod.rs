@@ -46,7 +46,7 @@
 //! | step | type | depends on |
 //! |---|---|---|
 //! | XML with the place of every element and attribute, checked against [`table`] | [`script::ScriptTree`] | the text |
-//! | names resolved | [`script::StageScript`] | the text |
+//! | includes replaced, names resolved | [`script::StageScript`] | the text, the files that it includes |
 //! | begins and ends | [`schedule::Schedule`] | the text, lengths of takes and ways |
 //! | channels of every thing | [`StagePlan`] | the text, the models |
 //! | places, poses, camera, lights, effects, titles, sounds | [`StageScene`] | the plan, a time |
@@ -59,7 +59,7 @@
 //!
 //! A `<script>` has a `<cast>` of things (`role prop camera light effect path mark`) and then actions. Two of them contain others: `<par>`
 //! begins all at once, `<seq>` one after the other. The script itself is a `par`. The others are `wait play move turn place look attach
-//! detach shot run set change sound title`. Every action may have `id begin end dur`; times are `1.5`, `1.5s`, `250ms`, `36f` (frames)
+//! detach shot run set change sound title include`. Every action may have `id begin end dur`; times are `1.5`, `1.5s`, `250ms`, `36f` (frames)
 //! or `1:05.5`. [`table::ELEMENTS`] has every attribute with its meaning.
 //!
 //! # The rules of time
@@ -94,9 +94,17 @@
 //! an offset. Ends before begins take no time, with a note. `gap`, for a `move` to a thing, is the distance at which it stops, and `turn`, for `attach`, rotates. `repeat` is an
 //! attribute of `play`, `move` and `sound` alone.
 //!
+//! # Scripts in scripts
+//!
+//! `<include src="intro.xml"/>` is a `par` of the actions of another script, which is a whole script by itself: its times in frames have its
+//! own frame rate; its size and seed count not. Names of its actions are its own: outside, only those of the `include` are seen. Things
+//! of the same id, kind and model are one thing, and the first one decides where that is at the start: that of the project, then of the script,
+//! then of an earlier `include`. `src` is relative to the file that has it; so are the models and sounds of an included script, unless a
+//! project says what they are relative to. This library opens no file: [`script::IncludedScripts`] has what the caller has read.
+//!
 //! # Limits
 //!
-//! Texts have at most 8 MB, 500,000 nodes and 64 levels. Document types and entities are refused. Elements and attributes of other namespaces are
+//! Texts have at most 8 MB, 500,000 nodes and 64 levels, a script together with everything that it includes; files are included at most 8 deep. Document types and entities are refused. Elements and attributes of other namespaces are
 //! kept and ignored.
 
 mod assets;

@@ -26,7 +26,9 @@
 //! [`crate::stage::table::PROJECTS`] has every element and attribute. All files are named relative to the project, with `/`, and none of
 //! them is above its folder. Changes of a project are splices of its text ([`crate::stage::splice`]), as those of scripts are.
 
-use super::script::{ErrorList, ScriptElement, ScriptError, ScriptTree, read_tree, suggestion};
+use super::script::{
+    ElementOrigin, ErrorList, ScriptElement, ScriptError, ScriptTree, read_tree, suggestion,
+};
 use super::table::{ElementGroup, PROJECTS};
 use super::time::StageRate;
 use std::collections::{HashMap, HashSet};
@@ -146,7 +148,7 @@ impl StageProject {
         let things = self.tree.elements().iter().filter(|element| element.row.group == ElementGroup::Thing);
         things.map(move |thing| {
             let mut thing = thing.clone();
-            (thing.parent, thing.is_shared) = (None, true);
+            (thing.parent, thing.origin) = (None, ElementOrigin::Project);
             (thing.range, thing.name) = (end..end, end..end);
             for attribute in &mut thing.attributes {
                 (attribute.range, attribute.name) = (end..end, end..end);

@@ -31,7 +31,12 @@ pub(super) struct BesideStamps(BTreeMap<PathBuf, FileStamp>);
 impl ReadOnce {
     /// Returns the folder of `file`.
     pub(super) fn of(file: &Path) -> Result<Self, FileAccessError> {
-        Ok(Self { folder: Folder::of(file)?, read: RefCell::default() })
+        Ok(Self::inside(Folder::of(file)?))
+    }
+
+    /// Returns this folder.
+    pub(super) fn inside(folder: Folder) -> Self {
+        Self { folder, read: RefCell::default() }
     }
 
     /// Returns the stamps of the buffers that were read.

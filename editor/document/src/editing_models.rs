@@ -10,6 +10,7 @@ use super::open::{Change, Open};
 use super::owner::Document;
 use super::project_edits::{EditedModel, kept_in, made_for};
 use super::project_models::ProjectModels;
+use super::scene_includes::SceneIncludeNews;
 use super::scene_model_source::{KeptEdits, SceneModelSource};
 use super::scene_models::SceneModelNews;
 use super::waiting_scene::{OutdatedEdits, OutdatedEditsChoice, SceneModelEdit, WaitingScene};
@@ -52,6 +53,20 @@ impl Document {
         }
         let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
         if scene.is_some_and(|scene| scene.take(news)) {
+            self.changed();
+        }
+    }
+
+    /// Takes files that the script of the scene includes.
+    pub(super) fn scene_includes_read(&mut self, news: SceneIncludeNews) {
+        if let Some(waiting) = &mut self.scene {
+            if let Some(scene) = &mut waiting.open.scene {
+                scene.take_includes(news);
+            }
+            return;
+        }
+        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
+        if scene.is_some_and(|scene| scene.take_includes(news)) {
             self.changed();
         }
     }

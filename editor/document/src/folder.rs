@@ -71,6 +71,26 @@ impl Folder {
         if resolved.starts_with(&self.root) { Ok(resolved) } else { Err(FileAccessError::Outside) }
     }
 
+    /// Returns the names of at most `most` files in the folder of the file `name` that end with `.` and `extension`, in alphabetical order. The
+    /// file itself need not be there.
+    pub(super) fn names_beside(&self, name: &str, extension: &str, most: usize) -> Vec<String> {
+        let inside = name.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let folder = match inside {
+            "" => Ok(self.root.clone()),
+            inside => self.path_of(inside),
+        };
+        let Ok(entries) = folder.and_then(|folder| Ok(std::fs::read_dir(folder)?)) else { return Vec::new() };
+        let named = |entry: io::Result<std::fs::DirEntry>| {
+            let file = entry.ok()?.file_name().into_string().ok()?;
+            let is_one = Path::new(&file).extension().is_some_and(|own| own.eq_ignore_ascii_case(extension));
+            let path = if inside.is_empty() { file } else { format!("{inside}/{file}") };
+            (is_one && checked(&path).is_ok()).then_some(path)
+        };
+        let mut names: Vec<String> = entries.take(100 * most).filter_map(named).take(most).collect();
+        names.sort_unstable();
+        names
+    }
+
     /// Returns whether there is a file called `name`, or something else of this name.
     pub(super) fn has(&self, name: &str) -> bool {
         checked(name).is_ok_and(|name| self.root.join(name).symlink_metadata().is_ok())

@@ -6,6 +6,7 @@ use super::export::{ExportOrder, ExportReport};
 use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
+use super::scene_includes::SceneIncludeNews;
 use super::scene_models::SceneModelNews;
 use super::take_check::CheckedTake;
 use super::{LoadError, LoadedModel, Loader, OpenedModel, Progress, Source};
@@ -36,6 +37,8 @@ pub(super) enum JobNews {
     Checked(Result<CheckedTake, String>),
     /// A model of the open scene was read.
     SceneModel(Box<SceneModelNews>),
+    /// Files that the script of the open scene includes were read.
+    SceneIncludes(Box<SceneIncludeNews>),
     /// The folder of the pose library after an order.
     Poses(Result<PoseFolder, String>),
 }

@@ -71,6 +71,7 @@ mod running_save;
 mod save_job;
 mod saving;
 mod scan;
+mod scene_includes;
 mod scene_lines;
 mod scene_model_source;
 mod scene_models;

@@ -2,7 +2,7 @@
 
 use super::SceneView;
 use super::edit::{EditScript, TextRef};
-use dragonfly_anim::stage::script::{ScriptTree, StageScript};
+use dragonfly_anim::stage::script::ScriptTree;
 use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
 use std::sync::Arc;
 
@@ -35,10 +35,10 @@ pub fn paths_of_renamed_line(
             }
             edits.extend(edit(project.tree()));
         } else {
-            let script = StageScript::read_of(Arc::clone(&file.text), Some(project));
+            let script = ScriptTree::read(Arc::clone(&file.text));
             let script =
                 script.map_err(|_| "A script that may follow the line has errors: correct it first")?;
-            edits.extend(edit(script.tree()));
+            edits.extend(edit(&script));
         }
     }
     Ok(edits)
@@ -47,8 +47,8 @@ pub fn paths_of_renamed_line(
 /// Returns the replacements by which all paths along a line follow it under its new name; `None` where there are none.
 fn renamed(tree: &ScriptTree, old: &str, new: &str) -> Option<TextSplices> {
     let elements = tree.elements().iter().enumerate();
-    let paths = elements
-        .filter(|(_, own)| !own.is_shared && own.row.name == "path" && own.value("line") == Some(old));
+    let paths =
+        elements.filter(|(_, own)| own.is_own() && own.row.name == "path" && own.value("line") == Some(old));
     let splices: Option<Vec<TextSplices>> =
         paths.map(|(element, _)| set_attribute(tree, element, "line", new)).collect();
     TextSplices::joined(splices?).filter(|splices| !splices.list().is_empty())

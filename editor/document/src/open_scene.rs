@@ -4,18 +4,18 @@ use super::Folder;
 use super::adapter::{TextFile, TextFiles};
 use super::job::JobNews;
 use super::project_models::ProjectModels;
+use super::scene_includes::{SceneIncludeNews, SceneIncludes};
 use super::scene_lines::SceneLines;
 use super::scene_model_source::SceneModelSource;
 use super::scene_models::{SceneModelNews, SceneModels};
 use super::scene_view::{SceneModel, SceneView};
 use super::text_source::is_project;
 use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::{ScriptError, ScriptTree, StageScript};
+use dragonfly_anim::stage::script::{ScriptContext, ScriptError, StageScript};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{LiveStage, StageAssets};
 use dragonfly_runtime::Address;
 use std::collections::{BTreeMap, HashSet};
-use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -36,6 +36,7 @@ pub(super) struct OpenScene {
     project: Option<Arc<StageProject>>,
     project_errors: Vec<ScriptError>,
     lines: SceneLines,
+    includes: SceneIncludes,
     /// The chosen script of a project.
     chosen: Option<String>,
     /// The texts that were planned last; `None` where models changed since then.
@@ -56,6 +57,7 @@ impl OpenScene {
             project: None,
             project_errors: Vec::new(),
             lines: SceneLines::default(),
+            includes: SceneIncludes::default(),
             chosen: None,
             planned: None,
             view: Arc::default(),
@@ -85,8 +87,14 @@ impl OpenScene {
         self.planned = Some(texts.clone());
         let Some(TextFile { name, text }) = self.script_of(texts) else { return };
         self.lines.update(self.project.as_deref(), texts, &mut self.assets);
-        self.live.update_of(Arc::clone(&text), self.project.as_deref(), &self.assets);
+        self.includes.update((&name, &text), texts, self.models.folder(), document);
         let project = self.project.clone();
+        let context = ScriptContext {
+            name: Arc::clone(&name),
+            project: project.as_deref().cloned(),
+            files: self.includes.files().clone(),
+        };
+        self.live.update_in(Arc::clone(&text), &context, &self.assets);
         let models = project.as_deref().map(ProjectModels::of);
         let wanted = self.wanted(models.as_ref(), texts);
         self.models.want(wanted, document);
@@ -99,6 +107,7 @@ impl OpenScene {
             project_notes: self.project_notes(models.as_ref()).into(),
             lines: self.lines.lines.clone(),
             line_errors: Arc::clone(&self.lines.errors),
+            includes: context.files,
             script: self.live.script().cloned(),
             plan: self.live.plan().cloned(),
             errors: self.live.errors().into(),
@@ -135,6 +144,15 @@ impl OpenScene {
         changed
     }
 
+    /// Takes files that the script includes. Returns whether the scene changed.
+    pub(super) fn take_includes(&mut self, news: SceneIncludeNews) -> bool {
+        let changed = self.includes.take(news);
+        if changed {
+            self.planned = None;
+        }
+        changed
+    }
+
     /// Reads the models of a file again: it changed.
     pub(super) fn read_again(&mut self, file: &str) {
         self.models.forget(file);
@@ -144,6 +162,7 @@ impl OpenScene {
     /// Reads the models again from the folder of the script or project, which was saved at `path`.
     pub(super) fn move_to(&mut self, path: &Path) {
         self.models.move_to(Folder::of(path).map_err(|error| error.to_string()));
+        self.includes.forget();
         self.planned = None;
     }
 
@@ -152,9 +171,9 @@ impl OpenScene {
         !self.project_errors.is_empty()
     }
 
-    /// Reads again the models that were missing and those whose files another program changed. Returns whether there are any.
+    /// Reads again the models and included scripts that were missing and those whose files another program changed. Returns whether there are any.
     pub(super) fn look_again(&mut self) -> bool {
-        let any = self.models.look_again();
+        let any = self.includes.look_again() | self.models.look_again();
         if any {
             self.planned = None;
         }
@@ -208,7 +227,7 @@ impl OpenScene {
                 SceneModel::Missing(reason) => {
                     let help =
                         "what needs it is shown as a placeholder; models are files below the folder of the script";
-                    Some(note(script.tree(), range, reason.clone(), help))
+                    Some(script.tree().error(range, reason.clone(), help))
                 }
                 SceneModel::Loading | SceneModel::Loaded(_) => None,
             }
@@ -237,7 +256,7 @@ impl OpenScene {
                 let message =
                     format!("the file of \"{id}\" changed since it was used last: its hash is {now}");
                 let help = "look at its takes; it is noted with the next edits of the model";
-                notes.push(note(project.tree(), model.value_range("hash"), message, help));
+                notes.push(project.tree().error(model.value_range("hash"), message, help));
             }
             let Some(unfit) = &file.unfit else { continue };
             let (range, help) = match (is_other, models.edits_of(model)) {
@@ -245,15 +264,11 @@ impl OpenScene {
                 (false, Some(edits)) => (edits.value_range("src"), ""),
                 (false, None) => (model.name.clone(), ""),
             };
-            notes.push(note(project.tree(), range, unfit.clone(), help));
+            notes.push(project.tree().error(range, unfit.clone(), help));
         }
         notes.sort_by_key(|note| note.range.start);
         notes
     }
-}
-
-fn note(tree: &ScriptTree, range: Range<usize>, message: String, help: &str) -> ScriptError {
-    ScriptError { place: tree.place(range.start), range, message, help: help.to_owned() }
 }
 
 /// Returns the models that a script names.

@@ -1,14 +1,16 @@
 //! Collects everything that a project, or the script of a scene, needs into one archive, and unpacks it again.
 
+use super::adapter::{TextFile, TextFiles};
 use super::archive::{ArchiveError, ArchivedFile, read_archive, write_archive};
 use super::import::{self, ImportDoor};
+use super::scene_includes::read_includes;
 use super::source::{LoadError, file_name};
 use super::text_source::{ReadTexts, is_project, read_texts};
 use super::{Cancel, FileAccessError, Folder, make_folder, read_file};
 use dragonfly_anim::format::{AssetError, AssetFs, Conventions};
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::{ScriptElement, StageScript};
+use dragonfly_anim::stage::script::{ScriptContext, ScriptElement, StageScript};
 use dragonfly_store::{ExpectedFile, RealFiles, SaveOptions, save};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -114,7 +116,7 @@ impl NeededFiles<'_> {
         self.reasons.extend(read.warnings.iter().cloned());
         let Some((main, scripts)) = read.texts.list().split_first() else { return };
         if !is_project {
-            return self.of_script(&main.name, &main.text, None);
+            return self.of_script(main, &read.texts, None);
         }
         match StageProject::read(main.text.clone()) {
             Ok(project) => {
@@ -124,21 +126,25 @@ impl NeededFiles<'_> {
                 }
                 self.names.extend(own);
                 for file in scripts.iter().filter(|file| project.scripts().any(|name| *name == *file.name)) {
-                    self.of_script(&file.name, &file.text, Some(&project));
+                    self.of_script(file, &read.texts, Some(&project));
                 }
             }
             Err(errors) => self.reasons.extend(errors.iter().map(|error| error.in_file(&main.name))),
         }
     }
 
-    fn of_script(&mut self, name: &str, text: &std::sync::Arc<str>, project: Option<&StageProject>) {
-        match StageScript::read_of(text.clone(), project) {
+    fn of_script(&mut self, file: &TextFile, texts: &TextFiles, project: Option<&StageProject>) {
+        let TextFile { name, text } = file;
+        let files = read_includes((name, text), texts, Ok(self.folder));
+        let context = ScriptContext { name: name.clone(), project: project.cloned(), files };
+        match StageScript::read_in(text.clone(), &context) {
             Ok(script) => {
+                self.names.extend(script.tree().included_files().into_iter().map(str::to_owned));
                 for element in script.tree().elements() {
                     if let Some(model) = element.value("model") {
                         self.of_model(project.map_or(model, |project| project.source_of(model)));
                     }
-                    if let Some(source) = element.value("src") {
+                    if let Some(source) = element.value("src").filter(|_| element.row.name != "include") {
                         self.names.insert(source.to_owned());
                     }
                 }

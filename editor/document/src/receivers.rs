@@ -93,6 +93,7 @@ impl Receiver for JobReceiver {
             JobNews::Exported(done) => document.exported(*done),
             JobNews::Clips(news) => document.clip_news(news, thread.now()),
             JobNews::Checked(result) => document.checked(result),
+            JobNews::SceneIncludes(news) => document.scene_includes_read(*news),
             JobNews::SceneModel(news) => document.scene_model_read(*news),
             JobNews::Poses(news) => document.poses_news(news),
         }

@@ -2,6 +2,7 @@
 
 use super::adapter::TextFiles;
 use super::project_models::ProjectModels;
+use super::scene_includes::read_includes;
 use super::scene_lines::SceneLines;
 use super::scene_model_source::SceneModelSource;
 use super::scene_view::{SceneModel, SceneView};
@@ -9,7 +10,7 @@ use super::source::LoadError;
 use super::text_source::{is_project, read_texts};
 use super::{Cancel, Folder};
 use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::{ScriptError, StageScript};
+use dragonfly_anim::stage::script::{ScriptContext, ScriptError, StageScript};
 use dragonfly_anim::stage::{StageAssets, StagePlan};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -106,7 +107,12 @@ pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoad
     }
     let title = script.name.to_string();
     let wrong = |errors| SceneLoadError::Script { title: title.clone(), errors };
-    let script = StageScript::read_of(Arc::clone(&script.text), project.as_ref()).map_err(wrong)?;
+    let context = ScriptContext {
+        name: Arc::clone(&script.name),
+        project: project.clone(),
+        files: read_includes((&script.name, &script.text), &read.texts, Ok(&folder)),
+    };
+    let script = StageScript::read_in(Arc::clone(&script.text), &context).map_err(wrong)?;
     let found = load_assets(&script, project.as_ref(), &read.texts, &folder, cancel)?.map_err(wrong)?;
     let SceneAssets { mut assets, models, warnings } = found;
     let mut lines = SceneLines::default();
@@ -149,12 +155,8 @@ fn load_assets(
                     LoadError::Format { reason, .. } => format!("{}: {reason}", origin.file),
                     other => other.to_string(),
                 };
-                errors.push(ScriptError::at(
-                    script.tree().text(),
-                    source.value_range.clone(),
-                    message,
-                    "models are files below the folder of the script",
-                ));
+                let help = "models are files below the folder of the script";
+                errors.push(script.tree().error(source.value_range.clone(), message, help));
             }
         }
     }

@@ -5,7 +5,7 @@ use super::adapter::TextFiles;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::{ScriptError, StageScript};
+use dragonfly_anim::stage::script::{IncludedScripts, ScriptError, StageScript};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -29,6 +29,8 @@ pub struct SceneView {
     pub lines: Option<Arc<DrawnLines>>,
     /// The errors of the newest text of the lines, in its order.
     pub line_errors: Arc<[ScriptError]>,
+    /// The files that the script includes, as far as they were read.
+    pub includes: IncludedScripts,
     /// The script of the last text without errors; `None` before the first one. While [`Self::errors`] has some, its ranges are those of an
     /// older text.
     pub script: Option<Arc<StageScript>>,

@@ -106,7 +106,7 @@ fn read_stamped(path: &Path) -> Result<(Arc<str>, Option<FileStamp>), LoadError>
 }
 
 /// Returns the bytes as text; the place and the reason where they are none.
-fn text_of(bytes: Vec<u8>) -> Result<Arc<str>, String> {
+pub(super) fn text_of(bytes: Vec<u8>) -> Result<Arc<str>, String> {
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(error.as_bytes());

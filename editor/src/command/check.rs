@@ -192,7 +192,8 @@ impl CheckReport {
         }
         let errors = errors.into_iter().map(|error| (Severity::Error, error));
         for (severity, error) in errors.chain(notes.into_iter().map(|note| (Severity::Note, note))) {
-            let (place, text) = (error.place.to_string(), error.text());
+            let text = error.sentence();
+            let place = error.inside.map_or_else(|| error.place.to_string(), |inside| inside.to_string());
             report.add(deny, severity, FindingRow { severity: "", rule: "SCRIPT", place, text });
         }
         Ok(report)

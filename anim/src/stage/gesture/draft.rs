@@ -1,6 +1,6 @@
 //! A text that a gesture changes in steps, and the check of the last one.
 
-use super::scene::{GestureRefusal, NO_PLACE, of_project, refused};
+use super::scene::{GestureRefusal, NO_PLACE, in_this_text, refused};
 use crate::stage::schedule::{Schedule, resolve};
 use crate::stage::script::{ScriptTree, StageScript};
 use crate::stage::splice::{TextSplices, remove_attribute, set_attribute};
@@ -41,15 +41,10 @@ impl<'a> ScriptDraft<'a> {
         Ok(Self { tree: Some(ScriptTree::read(text)?), ..self })
     }
 
-    /// Refuses an element that belongs to the project of the script.
+    /// Refuses an element that is in another text.
     pub(super) fn own(self, element: usize) -> Result<Self, GestureRefusal> {
-        match self.tree().elements().get(element) {
-            Some(shared) if shared.is_shared => {
-                let id = shared.value("id").unwrap_or_default();
-                refused(of_project(id))
-            }
-            Some(_) | None => Ok(self),
-        }
+        in_this_text(self.tree(), element)?;
+        Ok(self)
     }
 
     /// Changes attributes, in one step. Attributes that already have their values stay as they are written.

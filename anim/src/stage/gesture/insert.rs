@@ -2,6 +2,7 @@
 
 use super::draft::ScriptDraft;
 use super::scene::{GestureRefusal, GestureScene, refused};
+use crate::stage::script::ScriptElement;
 use crate::stage::splice::{ElementPlace, NewElement, insert};
 use crate::stage::table;
 use crate::stage::time::StageTime;
@@ -119,7 +120,7 @@ fn add_action(
     let last =
         (1..scene.script.actions().len()).filter(own).max_by_key(|&action| (scene.times(action).end, action));
     let actions = scene.script.actions();
-    let in_seq = last.filter(|&last| {
+    let in_seq = last.filter(|&last| scene.script.element(last).is_own()).filter(|&last| {
         let is_last = actions[last].parent.is_some_and(|parent| {
             scene.script.is_seq(parent) && actions[parent].children.last() == Some(&last)
         });
@@ -178,8 +179,10 @@ fn place_in_par(scene: &GestureScene<'_>, near: Option<usize>) -> ActionPlace {
     let only =
         last.filter(|&last| actions[0].children.len() == 1 && scene.script.element(last).row.name == "par");
     let near = near.or_else(|| only.and_then(|only| actions[only].children.last().copied())).or(last);
-    let Some(mut near) = near else {
-        let cast = scene.script.tree().elements().iter().position(|element| element.row.name == "cast");
+    // Not in an included file.
+    let Some(mut near) = near.map(|near| scene.script.action_in_text(near)) else {
+        let is_cast = |element: &ScriptElement| element.is_own() && element.row.name == "cast";
+        let cast = scene.script.tree().elements().iter().position(is_cast);
         return ActionPlace {
             place: cast.map_or(ElementPlace::First(0), ElementPlace::After),
             base: StageTime::ZERO,

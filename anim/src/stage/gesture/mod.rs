@@ -21,7 +21,7 @@
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
 //! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
-//! `prev` would have another one before it is refused, and so is one of a thing that belongs to the project: it is in another text.
+//! `prev` would have another one before it is refused, and so is one of what belongs to the project or to an included file: it is in another text.
 
 mod attributes;
 mod begin;
@@ -41,5 +41,5 @@ pub use moving::{SequenceOrder, move_clip};
 pub use path_points::{move_path_point, written_points};
 pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
-pub use scene::{Followers, GestureRefusal, GestureScene};
+pub use scene::{Followers, GestureRefusal, GestureScene, in_this_text};
 pub use trim::{trim_end, trim_start};

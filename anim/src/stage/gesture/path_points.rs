@@ -1,7 +1,7 @@
 //! Points of paths, moved.
 
 use super::draft::ScriptDraft;
-use super::scene::{GestureRefusal, refused};
+use super::scene::{GestureRefusal, in_this_text, refused};
 use crate::stage::line::points_text;
 use crate::stage::script::StageScript;
 use crate::stage::splice::{TextSplice, TextSplices};
@@ -23,6 +23,7 @@ pub fn move_path_point(
     let tree = script.tree();
     let element = script.thing_element(path).filter(|&element| tree.elements()[element].row.name == "path");
     let Some(element) = element else { return refused(format!("No path of the cast has the id \"{path}\"")) };
+    in_this_text(tree, element)?;
     let Some(attribute) = tree.elements()[element].attribute("points") else {
         return refused(format!("{path} follows a line: its points are those of the line"));
     };
@@ -35,7 +36,7 @@ pub fn move_path_point(
     }
     let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
     let splices = TextSplices::new(vec![TextSplice { range, text: point }]);
-    ScriptDraft::of(script).own(element)?.then(|_| splices)?.finish()
+    ScriptDraft::of(script).then(|_| splices)?.finish()
 }
 
 /// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.

@@ -1,7 +1,7 @@
 //! Things put somewhere else.
 
 use super::draft::spliced_text;
-use super::scene::{GestureRefusal, GestureScene, NO_PLACE, of_project, refused};
+use super::scene::{GestureRefusal, GestureScene, NO_PLACE, in_this_text, refused};
 use crate::stage::splice::{TextSplices, set_attribute};
 use crate::stage::table::vector;
 use crate::stage::time::StageTime;
@@ -156,14 +156,14 @@ fn starting_place(
             && scene.times(action).begin <= time
     });
     if let Some(last) = places.max_by_key(|&action| (scene.times(action).begin, action)) {
-        return Ok(PlaceOf::Action(scene.script.actions()[last].element, scene.times(last).begin));
+        let element = scene.script.actions()[last].element;
+        in_this_text(tree, element)?;
+        return Ok(PlaceOf::Action(element, scene.times(last).begin));
     }
     let Some(cast) = scene.script.thing_element(thing) else {
         return refused(format!("No thing of the cast has the id \"{thing}\""));
     };
-    if tree.elements()[cast].is_shared {
-        return refused(of_project(thing));
-    }
+    in_this_text(tree, cast)?;
     if tree.elements()[cast].row.attribute(attribute).is_none() {
         return refused(format!("A {} has no place of its own", tree.elements()[cast].row.name));
     }

@@ -47,7 +47,9 @@ fn user_of(scene: &GestureScene<'_>, element: usize) -> Option<String> {
         .filter(|&other| is_inside(other))
         .filter_map(|other| tree.elements()[other].value("id"))
         .collect();
-    let user = (0..tree.elements().len()).filter(|&other| !is_inside(other)).find(|&other| {
+    // An included file has names of its own.
+    let may_refer = |other: &usize| !is_inside(*other) && !tree.elements()[*other].is_included();
+    let user = (0..tree.elements().len()).filter(may_refer).find(|&other| {
         let attributes = &tree.elements()[other].attributes;
         attributes.iter().any(|attribute| named(attribute).is_some_and(|name| ids.contains(&name)))
     })?;
@@ -68,10 +70,7 @@ pub fn duplicate_clip(scene: &GestureScene<'_>, action: usize) -> Result<String,
     let tree = scene.script.tree();
     let end = tree.elements()[own.element].range.end;
     let elements = tree.elements()[own.element..].iter().take_while(|inner| inner.range.start < end).count();
-    let within = own.element..own.element + elements;
-    let actions = scene.script.actions();
-    let count = actions.iter().filter(|other| within.contains(&other.element)).count();
-    let (copy, element) = (action + count, own.element + elements);
+    let (copy, element) = (scene.script.branch(action).end, own.element + elements);
     let is_in_seq = scene.script.is_in_seq(action);
     let length = times.stop - times.begin;
     let base = if is_in_seq { times.end } else { usual_begin(scene, action) };

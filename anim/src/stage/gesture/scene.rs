@@ -2,7 +2,7 @@
 
 use super::begin::ends_with_another;
 use crate::stage::schedule::{ActionTimes, Schedule};
-use crate::stage::script::{ScriptElement, ScriptError, StageScript};
+use crate::stage::script::{ElementOrigin, ScriptElement, ScriptError, ScriptTree, StageScript};
 use crate::stage::time::{StageTime, TICKS_PER_SECOND};
 use crate::stage::{StagePlan, StageTake};
 use std::fmt;
@@ -53,9 +53,23 @@ pub(super) const NO_LENGTH: &str = "It would have no length";
 /// The reason why a change has no place in the text.
 pub(super) const NO_PLACE: &str = "There is no place for it in the script";
 
-/// Returns the reason why a thing of the project is not changed in a script.
-pub(super) fn of_project(id: &str) -> String {
-    format!("\"{id}\" belongs to the project: change it there")
+/// Refuses an element that is in another text than the script: that of its project, or of a file that it includes.
+///
+/// # Errors
+///
+/// The reason, which says where it is.
+pub fn in_this_text(tree: &ScriptTree, element: usize) -> Result<(), GestureRefusal> {
+    let Some(element) = tree.elements().get(element) else { return Ok(()) };
+    let id =
+        element.value("id").map_or_else(|| format!("This <{}>", element.row.name), |id| format!("\"{id}\""));
+    match element.origin {
+        ElementOrigin::Text => Ok(()),
+        ElementOrigin::Project => refused(format!("{id} belongs to the project: change it there")),
+        ElementOrigin::Included(_) => {
+            let file = tree.file_of(element).unwrap_or_default();
+            refused(format!("{id} is in {file}: open it to change it"))
+        }
+    }
 }
 
 /// Returns a refusal.
@@ -64,11 +78,12 @@ pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, GestureRefusal>
 }
 
 impl<'a> GestureScene<'a> {
-    /// Returns the element of an action.
+    /// Returns the element of an action. Refuses one of an included file.
     pub(super) fn element(&self, action: usize) -> Result<&'a ScriptElement, GestureRefusal> {
         if action == 0 || action >= self.script.actions().len() || action >= self.schedule().times().len() {
             return refused("There is no such action");
         }
+        in_this_text(self.script.tree(), self.script.actions()[action].element)?;
         Ok(self.script.element(action))
     }
 

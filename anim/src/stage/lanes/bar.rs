@@ -38,6 +38,8 @@ pub struct SceneBar {
     pub is_main: bool,
     /// Whether it has no length of its own.
     pub is_passive: bool,
+    /// The included file that has the action, relative to the folder of the document: it cannot be changed here. `None`: the script itself.
+    pub file: Option<Box<str>>,
     /// Moments of its take.
     pub marks: Vec<BarMark>,
     /// Its row in the lane.
@@ -70,6 +72,7 @@ impl SceneBar {
             fade_out: time("fade-out"),
             is_main: matches!(kind, "shot" | "move" | "run") || (kind == "play" && !is_layered),
             is_passive: own.passive,
+            file: script.tree().file_of(element).map(Into::into),
             marks: marks(script, action, times.begin, times.once),
             row: 0,
         }
@@ -114,7 +117,7 @@ fn label(element: &ScriptElement) -> String {
         "shot" => value("who").to_owned(),
         "run" => "On".to_owned(),
         "set" | "change" => format!("{} {}", value("property"), value("to")),
-        "sound" => value("src").rsplit('/').next().unwrap_or_default().to_owned(),
+        "sound" | "include" => value("src").rsplit('/').next().unwrap_or_default().to_owned(),
         "title" => value("text").to_owned(),
         other => other.to_owned(),
     }

@@ -5,6 +5,7 @@
 //! anna     │ Walk            ╳ PickUp │ Slash  │      row 0: what moves the whole body; overlaps are cross-fades
 //!          │                      │ look at ben │      row 1 and below: everything else, in the first row that is free
 //! Sounds   │        │ thunder.ogg │
+//! Scripts  │ intro.xml   │                             included; its actions are on the lanes above, and cannot be changed there
 //! ```
 
 mod bar;
@@ -29,6 +30,8 @@ pub enum LaneSubject {
     Sounds,
     /// Titles.
     Titles,
+    /// Other scripts: its bars are the includes.
+    Includes,
 }
 
 /// A lane of the timeline.
@@ -49,7 +52,7 @@ pub struct SceneLane {
 /// The lanes of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneLanes {
-    /// Shots first, then the things of the cast in its order, then sounds and titles.
+    /// Shots first, then the things of the cast in its order, then sounds, titles and included scripts.
     pub list: Vec<SceneLane>,
     /// When the last bar ends that has a length of its own; the length of the script at least.
     pub end: StageTime,
@@ -71,6 +74,7 @@ impl SceneLanes {
             .collect();
         let (mut sounds, mut titles) =
             (lane(LaneSubject::Sounds, "Sounds", ""), lane(LaneSubject::Titles, "Titles", ""));
+        let mut includes = lane(LaneSubject::Includes, "Scripts", "");
         let mut end = plan.length();
         let stops: HashMap<usize, StageTime> =
             plan.sounds().iter().map(|sound| (sound.action(), sound.stop())).collect();
@@ -87,6 +91,7 @@ impl SceneLanes {
                 "shot" => Some(&mut shots),
                 "sound" => Some(&mut sounds),
                 "title" => Some(&mut titles),
+                "include" => Some(&mut includes),
                 _ => element
                     .value("who")
                     .and_then(|who| script.thing_called(who))
@@ -101,10 +106,10 @@ impl SceneLanes {
             "camera" | "path" | "mark" => !lane.bars.is_empty(),
             _ => true,
         };
-        let mut list = Vec::with_capacity(things.len() + 3);
+        let mut list = Vec::with_capacity(things.len() + 4);
         list.extend(Some(shots).filter(|shots| has_camera || !shots.bars.is_empty()));
         list.extend(things.into_iter().filter(is_shown));
-        list.extend([sounds, titles].into_iter().filter(|lane| !lane.bars.is_empty()));
+        list.extend([sounds, titles, includes].into_iter().filter(|lane| !lane.bars.is_empty()));
         list.iter_mut().for_each(rows::assign);
         Self { list, end }
     }

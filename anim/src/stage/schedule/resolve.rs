@@ -167,16 +167,12 @@ impl<'a> Resolver<'a> {
         let note = |index: usize, end: StageTime| {
             let element = self.script.element(index);
             let range = element.value_range("end");
-            ScriptError {
-                place: self.script.tree().place(range.start),
-                range,
-                message: format!(
-                    "this end is {:.3} s before the begin, so <{}> takes no time",
-                    (self.at(TimeNode::Begin(index)) - end).seconds(),
-                    element.row.name
-                ),
-                help: String::new(),
-            }
+            let message = format!(
+                "this end is {:.3} s before the begin, so <{}> takes no time",
+                (self.at(TimeNode::Begin(index)) - end).seconds(),
+                element.row.name
+            );
+            self.script.tree().error(range, message, "")
         };
         for (index, action) in self.script.actions().iter().enumerate() {
             let (begin, end) = (self.at(TimeNode::Begin(index)), self.at(TimeNode::End(index)));

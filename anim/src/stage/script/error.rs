@@ -1,5 +1,6 @@
 //! Errors of scripts: where, what, and what to do.
 
+use super::origin::{IncludedPart, IncludedPlace, located};
 use super::text_place::{LineIndex, TextPlace};
 use std::fmt;
 use std::ops::Range;
@@ -7,10 +8,12 @@ use std::ops::Range;
 /// An error of a script, with its place in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScriptError {
-    /// The bytes of the text that are wrong.
+    /// The bytes of the text that are wrong; those of the `include` for an error in a file that it names.
     pub range: Range<usize>,
     /// Line and column of their start.
     pub place: TextPlace,
+    /// The place in the included file, for an error there.
+    pub inside: Option<Box<IncludedPlace>>,
     /// The mistake, and what was expected.
     pub message: String,
     /// The likely meaning, or the possible names; empty where there is nothing to suggest.
@@ -21,17 +24,28 @@ impl ScriptError {
     /// Creates an error at some bytes of `text`, for what is found outside of this module, such as a missing file.
     pub fn at(text: &str, range: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> Self {
         let place = LineIndex::new(&text.into()).place(range.start);
-        Self { range, place, message: message.into(), help: help.into() }
+        Self { range, place, inside: None, message: message.into(), help: help.into() }
     }
 
     /// Returns the message, with the help after a semicolon.
-    pub fn text(&self) -> String {
+    pub fn sentence(&self) -> String {
         if self.help.is_empty() { self.message.clone() } else { format!("{}; {}", self.message, self.help) }
     }
 
-    /// Returns `FILE:LINE:COLUMN: MESSAGE`, with the help after a semicolon.
+    /// Returns the message, with the help after a semicolon; for an error in an included file after `FILE:LINE:COLUMN: ` of that.
+    pub fn text(&self) -> String {
+        match &self.inside {
+            Some(inside) => format!("{inside}: {}", self.sentence()),
+            None => self.sentence(),
+        }
+    }
+
+    /// Returns `FILE:LINE:COLUMN: MESSAGE`, with the help after a semicolon. The file is `file`, or the included one that has the error.
     pub fn in_file(&self, file: &str) -> String {
-        format!("{file}:{self}")
+        match &self.inside {
+            Some(_) => self.text(),
+            None => format!("{file}:{self}"),
+        }
     }
 }
 
@@ -50,25 +64,39 @@ pub const MOST_ERRORS: usize = 100;
 #[derive(Debug)]
 pub(crate) struct ErrorList<'a> {
     lines: &'a LineIndex,
+    parts: &'a [IncludedPart],
     errors: Vec<ScriptError>,
 }
 
 impl<'a> ErrorList<'a> {
     pub(crate) fn new(lines: &'a LineIndex) -> Self {
-        Self { lines, errors: Vec::new() }
+        Self::with_parts(lines, &[])
+    }
+
+    /// Creates a list for a text with what it includes.
+    pub(in crate::stage) fn with_parts(lines: &'a LineIndex, parts: &'a [IncludedPart]) -> Self {
+        Self { lines, parts, errors: Vec::new() }
     }
 
     /// Adds an error, unless there are too many.
     pub(crate) fn add(&mut self, range: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        if self.errors.len() < MOST_ERRORS {
-            let place = self.lines.place(range.start);
-            self.errors.push(ScriptError { range, place, message: message.into(), help: help.into() });
+        if !self.is_full() {
+            self.push(located(self.lines, self.parts, range, message.into(), help.into()));
         }
     }
 
-    /// Returns the place of a byte.
+    /// Adds an error that has its place, unless there are too many. One that a file has, is reported once, however often that is included.
+    pub(in crate::stage) fn push(&mut self, error: ScriptError) {
+        let is_same = |other: &ScriptError| other.inside == error.inside && other.message == error.message;
+        let is_known = error.inside.is_some() && self.errors.iter().any(is_same);
+        if !self.is_full() && !is_known {
+            self.errors.push(error);
+        }
+    }
+
+    /// Returns the place of a byte: in its own file, for a byte of an included one.
     pub(crate) fn place(&self, at: usize) -> TextPlace {
-        self.lines.place(at)
+        IncludedPart::at(self.parts, at).map_or_else(|| self.lines.place(at), |part| part.place(at))
     }
 
     /// Returns whether no more errors are added.
@@ -82,7 +110,10 @@ impl<'a> ErrorList<'a> {
 
     /// Returns the errors in the order of the text.
     pub(crate) fn sorted(mut self) -> Vec<ScriptError> {
-        self.errors.sort_by_key(|error| error.range.start);
+        let inside = |error: &ScriptError| {
+            error.inside.as_ref().map(|inside| (inside.file.clone(), inside.range.start))
+        };
+        self.errors.sort_by_cached_key(|error| (error.range.start, inside(error)));
         self.errors
     }
 }

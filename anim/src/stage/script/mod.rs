@@ -1,14 +1,18 @@
 //! Scripts: from a text to things and actions whose references are resolved.
 //!
 //! ```text
-//! text → XML with places → checked against the tables → names resolved: StageScript
+//! text → XML with places → checked against the tables → includes replaced → names resolved: StageScript
 //! ```
 //!
 //! What depends on models (takes, bones, lengths) is checked where a script is built for them: [`crate::stage::StagePlan`].
 
 mod error;
+mod included;
+mod merge;
+mod origin;
 mod read;
 mod references;
+mod scope;
 mod suggest;
 mod text_place;
 mod timing;
@@ -17,17 +21,20 @@ mod tree;
 pub use crate::stage::moment::{MomentText, is_name};
 pub(in crate::stage) use error::ErrorList;
 pub use error::{MOST_ERRORS, ScriptError};
+pub use included::{IncludedScripts, MOST_INCLUDES, MissingScript, ScriptContext};
+use origin::IncludedPart;
+pub use origin::{ElementOrigin, IncludedPlace};
 pub(in crate::stage) use read::read_tree;
 pub use read::{MOST_BYTES, MOST_DEPTH, MOST_NODES};
+use scope::ScriptNames;
 pub(in crate::stage) use suggest::suggestion;
 use text_place::LineIndex;
 pub use text_place::TextPlace;
 pub use tree::{ScriptAttribute, ScriptElement, ScriptTree};
 
 use crate::stage::project::StageProject;
-use crate::stage::table::{ElementGroup, SCRIPTS, size};
+use crate::stage::table::{SCRIPTS, size};
 use crate::stage::time::{Decimal, StageRate, StageTime};
-use std::collections::HashMap;
 use std::sync::Arc;
 
 /// How often an action runs.
@@ -79,23 +86,14 @@ pub struct ScriptAction {
 #[derive(Clone, Debug)]
 pub struct StageScript {
     tree: ScriptTree,
-    project: Option<StageProject>,
+    context: ScriptContext,
     rate: StageRate,
     size: [u32; 2],
     seed: u32,
     /// Elements of the things, in the order of the text.
     things: Vec<usize>,
     actions: Vec<ScriptAction>,
-    ids: HashMap<Box<str>, NamedItem>,
-}
-
-/// What an id names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::stage) enum NamedItem {
-    /// A thing of the cast, by its position in the list of things.
-    Thing(usize),
-    /// An action.
-    Action(usize),
+    names: ScriptNames,
 }
 
 impl StageScript {
@@ -118,16 +116,25 @@ impl StageScript {
         text: impl Into<Arc<str>>,
         project: Option<&StageProject>,
     ) -> Result<Self, Vec<ScriptError>> {
-        Self::of_tree(read::read_tree(&text.into(), &SCRIPTS)?, project.cloned())
+        Self::read_in(text, &ScriptContext { project: project.cloned(), ..ScriptContext::default() })
     }
 
-    /// Reads another text as this script was read: with the same project, if it has one.
+    /// Reads a script with everything that it is read with: the project that it belongs to, and the files that it includes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read_of`]. Errors of an included file have their places in it, and the bytes of the `include`.
+    pub fn read_in(text: impl Into<Arc<str>>, context: &ScriptContext) -> Result<Self, Vec<ScriptError>> {
+        Self::of_tree(read::read_tree(&text.into(), &SCRIPTS)?, context.clone())
+    }
+
+    /// Reads another text as this script was read: with the same project, if it has one, and the same included files.
     ///
     /// # Errors
     ///
     /// As [`Self::read_of`].
     pub fn reread(&self, text: impl Into<Arc<str>>) -> Result<Self, Vec<ScriptError>> {
-        Self::read_of(text, self.project.as_ref())
+        Self::read_in(text, &self.context)
     }
 
     /// Reads a text whose elements are known, as [`Self::reread`] does.
@@ -136,18 +143,22 @@ impl StageScript {
     ///
     /// As [`Self::read_of`].
     pub fn with_tree(&self, tree: ScriptTree) -> Result<Self, Vec<ScriptError>> {
-        Self::of_tree(tree, self.project.clone())
+        Self::of_tree(tree, self.context.clone())
     }
 
-    fn of_tree(mut tree: ScriptTree, project: Option<StageProject>) -> Result<Self, Vec<ScriptError>> {
-        // A tree of a script has the shared elements already.
-        tree.elements.retain(|element| !element.is_shared);
-        let own = tree.elements.len();
-        if let Some(project) = &project {
+    fn of_tree(mut tree: ScriptTree, context: ScriptContext) -> Result<Self, Vec<ScriptError>> {
+        // A tree of a script has the elements of other texts already.
+        tree.elements.retain(ScriptElement::is_own);
+        tree.parts = Arc::default();
+        if let Some(project) = &context.project {
             tree.elements.extend(project.shared_things(tree.text.len()));
         }
+        let wrong = merge::merge(&mut tree, &context);
+        if !wrong.is_empty() {
+            return Err(wrong);
+        }
         let root = &tree.elements[0];
-        let of_project = |name: &str| project.as_ref()?.tree().elements()[0].value(name);
+        let of_project = |name: &str| context.project.as_ref()?.tree().elements()[0].value(name);
         // A written value has priority, then that of the project, then the default.
         let value = |name: &str| match root.attribute(name) {
             Some(written) => Some(&*written.value),
@@ -158,59 +169,13 @@ impl StageScript {
             value("size").and_then(size).unwrap_or([1280, 720]),
             value("seed").and_then(|seed| seed.parse().ok()).unwrap_or(0),
         );
-        let (things, actions, ids) = (Vec::new(), Vec::new(), HashMap::new());
-        let mut script = Self { tree, project, rate, size, seed, things, actions, ids };
-        let lines = script.tree.lines.clone();
-        let mut errors = ErrorList::new(&lines);
-        script.collect(own, &mut errors);
+        let (things, actions, names) = (Vec::new(), Vec::new(), ScriptNames::default());
+        let mut script = Self { tree, context, rate, size, seed, things, actions, names };
+        let (lines, parts) = (script.tree.lines.clone(), Arc::clone(&script.tree.parts));
+        let mut errors = ErrorList::with_parts(&lines, &parts);
+        script.collect(&mut errors);
         references::resolve(&mut script, &mut errors);
         if errors.is_empty() { Ok(script) } else { Err(errors.sorted()) }
-    }
-
-    /// Lists things, actions and ids: first of the elements that the script shares with its project, which follow the first `own`.
-    fn collect(&mut self, own: usize, errors: &mut ErrorList) {
-        let mut action_of: HashMap<usize, usize> = HashMap::new();
-        for index in (own..self.tree.elements.len()).chain(0..own) {
-            let element = &self.tree.elements[index];
-            let item = match element.row.group {
-                ElementGroup::Thing => {
-                    self.things.push(index);
-                    NamedItem::Thing(self.things.len() - 1)
-                }
-                ElementGroup::Script | ElementGroup::Container | ElementGroup::Action => {
-                    let parent = element.parent.and_then(|parent| action_of.get(&parent)).copied();
-                    let own = self.actions.len();
-                    let position = parent.map_or(0, |parent| self.actions[parent].children.len());
-                    self.actions.push(self.action(index, parent, position));
-                    if let Some(parent) = parent {
-                        self.actions[parent].children.push(own);
-                    }
-                    action_of.insert(index, own);
-                    NamedItem::Action(own)
-                }
-                ElementGroup::Cast | ElementGroup::Part | ElementGroup::Project => continue,
-            };
-            let Some(id) = element.value("id") else { continue };
-            if id == "prev" {
-                errors.add(
-                    element.value_range("id"),
-                    "\"prev\" means the action before, so nothing can be called that",
-                    "",
-                );
-            } else if let Some(first) = self.ids.insert(id.into(), item) {
-                let first = match first {
-                    NamedItem::Thing(thing) => self.things[thing],
-                    NamedItem::Action(action) => self.actions[action].element,
-                };
-                let first = &self.tree.elements[first];
-                let first = match first.is_shared {
-                    true => "in the cast of the project".to_owned(),
-                    false => format!("at {}", errors.place(first.range.start)),
-                };
-                let message = format!("the id \"{id}\" is used {first} already");
-                errors.add(element.value_range("id"), message, "an id names one thing or action");
-            }
-        }
     }
 
     fn action(&self, index: usize, parent: Option<usize>, position: usize) -> ScriptAction {
@@ -263,25 +228,43 @@ impl StageScript {
         self.things.iter().copied()
     }
 
-    /// Returns the actions, in the order of the text; the first one is the script, which is a `par`.
+    /// Returns the actions, in the order of the text, with those of an included file after its `include`; the first one is the script, which is
+    /// a `par`.
     pub fn actions(&self) -> &[ScriptAction] {
         &self.actions
     }
 
-    /// Returns the action called `id`.
+    /// Returns the action of the text itself that is called `id`; those of included files have names of their own.
     pub fn action_called(&self, id: &str) -> Option<usize> {
-        match self.ids.get(id)? {
-            NamedItem::Action(action) => Some(*action),
-            NamedItem::Thing(_) => None,
-        }
+        self.names.action(id)
     }
 
     /// Returns the position of the thing called `id` in [`Self::things`].
     pub fn thing_called(&self, id: &str) -> Option<usize> {
-        match self.ids.get(id)? {
-            NamedItem::Thing(thing) => Some(*thing),
-            NamedItem::Action(_) => None,
+        self.names.thing(id)
+    }
+
+    /// Returns the action of the text itself that an action comes from: itself, or the `include` that brings it.
+    pub fn action_in_text(&self, action: usize) -> usize {
+        let is_included = |action: &usize| self.element(*action).is_included();
+        let mut own = action;
+        while let Some(parent) = self.actions[own].parent.filter(|_| is_included(&own)) {
+            own = parent;
         }
+        own
+    }
+
+    /// Returns an action with everything in it: their positions follow each other.
+    pub fn branch(&self, action: usize) -> std::ops::Range<usize> {
+        // Later siblings of it, or of a container around it, come after everything in it.
+        let last =
+            std::iter::successors(Some(action), |&at| self.actions[at].children.last().copied()).last();
+        action..last.unwrap_or(action) + 1
+    }
+
+    /// Returns what it was read with.
+    pub fn context(&self) -> &ScriptContext {
+        &self.context
     }
 
     /// Returns the index of the element of the thing called `id` in [`Self::tree`].
@@ -299,7 +282,7 @@ impl StageScript {
         &self,
         check: impl FnOnce(&mut ErrorList) -> T,
     ) -> Result<T, Vec<ScriptError>> {
-        let mut errors = ErrorList::new(&self.tree.lines);
+        let mut errors = ErrorList::with_parts(&self.tree.lines, &self.tree.parts);
         let result = check(&mut errors);
         if errors.is_empty() { Ok(result) } else { Err(errors.sorted()) }
     }

@@ -1,6 +1,7 @@
 //! From a text to a checked tree: XML first, then the tables.
 
 use super::error::ErrorList;
+use super::origin::ElementOrigin;
 use super::suggest::suggestion;
 use super::tree::{ScriptAttribute, ScriptElement, ScriptTree};
 use super::{LineIndex, ScriptError};
@@ -26,7 +27,7 @@ pub(in crate::stage) fn read_tree(
 ) -> Result<ScriptTree, Vec<ScriptError>> {
     let lines = LineIndex::new(text);
     let mut errors = ErrorList::new(&lines);
-    let mut elements = Vec::new();
+    let (mut elements, mut nodes) = (Vec::new(), 0);
     if text.len() > MOST_BYTES {
         errors.add(0..0, format!("the text has {} bytes; at most {MOST_BYTES} are read", text.len()), "");
     } else if let Some(at) = too_deep(text) {
@@ -35,7 +36,10 @@ pub(in crate::stage) fn read_tree(
         let options =
             ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
         match Document::parse_with_options(text, options) {
-            Ok(document) => elements = checked(&document, vocabulary, &mut errors),
+            Ok(document) => {
+                nodes = document.descendants().count();
+                elements = checked(&document, vocabulary, &mut errors);
+            }
             Err(error) => {
                 let at = error.pos();
                 errors.add(lines.range(at.row, at.col), xml_message(&error, vocabulary), "");
@@ -43,7 +47,8 @@ pub(in crate::stage) fn read_tree(
         }
     }
     if errors.is_empty() {
-        return Ok(ScriptTree { text: Arc::clone(text), lines, elements });
+        let (text, parts) = (Arc::clone(text), Arc::default());
+        return Ok(ScriptTree { text, lines, elements, parts, nodes });
     }
     Err(errors.sorted())
 }
@@ -144,7 +149,7 @@ fn checked(
             range: node.range(),
             name: name_range(&node),
             attributes,
-            is_shared: false,
+            origin: ElementOrigin::Text,
         });
         for child in node.children() {
             if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {

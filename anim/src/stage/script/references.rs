@@ -1,6 +1,7 @@
 //! References of actions: to things, to each other's moments, to properties.
 
-use super::{ActionMoment, ErrorList, MomentText, NamedItem, StageRepeat, StageScript, suggestion};
+use super::scope::ScriptScope;
+use super::{ActionMoment, ErrorList, MomentText, StageRepeat, StageScript, suggestion};
 use crate::stage::table::{NameReference, PROPERTIES, PropertyType, property, vector};
 use crate::stage::time::Decimal;
 
@@ -24,7 +25,7 @@ fn moment(script: &StageScript, index: usize, name: &str, errors: &mut ErrorList
     let element = script.element(index);
     let attribute = element.attribute(name)?;
     let range = attribute.value_range.clone();
-    let (action, point, offset) = match MomentText::parse(&attribute.value, script.rate)? {
+    let (action, point, offset) = match MomentText::parse(&attribute.value, script.rate_of(element))? {
         MomentText::Offset(time) => return Some(ActionMoment::Offset(time)),
         MomentText::Of { action, point, offset } => (action, point, offset),
     };
@@ -39,19 +40,18 @@ fn moment(script: &StageScript, index: usize, name: &str, errors: &mut ErrorList
         };
         other
     } else {
-        let Some(&item) = script.ids.get(&*action) else {
-            let ids = script.ids.iter().filter(|(_, item)| matches!(item, NamedItem::Action(_)));
-            let mut ids: Vec<&str> = ids.map(|(id, _)| &**id).collect();
-            ids.sort_unstable();
-            errors.add(
-                range,
-                format!("no action has the id \"{action}\""),
-                suggestion(&action, "ids of actions", ids),
-            );
-            return None;
-        };
-        let NamedItem::Action(other) = item else {
-            errors.add(range, format!("\"{action}\" is a thing of the cast; only actions have moments"), "");
+        let scope = script.scope(element);
+        let Some(other) = scope.action(&action) else {
+            let (message, help) = match scope.thing(&action) {
+                Some(_) => {
+                    (format!("\"{action}\" is a thing of the cast; only actions have moments"), String::new())
+                }
+                None => (
+                    format!("no action has the id \"{action}\""),
+                    suggestion(&action, "ids of actions", scope.action_ids()),
+                ),
+            };
+            errors.add(range, message, help);
             return None;
         };
         other
@@ -91,8 +91,13 @@ pub(super) fn ancestors(script: &StageScript, index: usize) -> impl Iterator<Ite
     std::iter::successors(script.actions[index].parent, |&above| script.actions[above].parent)
 }
 
-fn thing_names(script: &StageScript, is_one: impl Fn(&str) -> bool) -> Vec<&str> {
-    script.things().filter(|thing| is_one(thing.row.name)).filter_map(|thing| thing.value("id")).collect()
+fn thing_names<'a>(
+    script: &'a StageScript,
+    scope: ScriptScope<'_>,
+    is_one: impl Fn(&str) -> bool,
+) -> Vec<&'a str> {
+    let names = script.things().filter(|thing| is_one(thing.row.name)).filter_map(|thing| thing.value("id"));
+    names.filter(|name| scope.thing(name).is_some()).collect()
 }
 
 fn check_who(script: &StageScript, index: usize, errors: &mut ErrorList) {
@@ -100,9 +105,9 @@ fn check_who(script: &StageScript, index: usize, errors: &mut ErrorList) {
     for (name, kinds) in [("who", element.row.who), ("path", &["path"][..])] {
         let Some(attribute) = element.attribute(name) else { continue };
         let is_one = |kind: &str| kinds.contains(&kind);
-        let kind = script
-            .thing_called(&attribute.value)
-            .map(|thing| script.tree.elements[script.things[thing]].row.name);
+        let scope = script.scope(element);
+        let kind =
+            scope.thing(&attribute.value).map(|thing| script.tree.elements[script.things[thing]].row.name);
         if kind.is_some_and(is_one) {
             continue;
         }
@@ -113,7 +118,8 @@ fn check_who(script: &StageScript, index: usize, errors: &mut ErrorList) {
             }
             None => format!("no thing of the cast has the id \"{}\"", attribute.value),
         };
-        let help = suggestion(&attribute.value, &format!("ids of {wanted}"), thing_names(script, is_one));
+        let help =
+            suggestion(&attribute.value, &format!("ids of {wanted}"), thing_names(script, scope, is_one));
         errors.add(attribute.value_range.clone(), message, help);
     }
 }
@@ -132,7 +138,8 @@ fn check_spots(script: &StageScript, index: usize, errors: &mut ErrorList) {
             continue;
         }
         let name = value.split_once('.').map_or(value, |(name, _)| name);
-        match script.thing_called(name) {
+        let scope = script.scope(element);
+        match scope.thing(name) {
             Some(thing) if script.tree.elements[script.things[thing]].row.name == "path" => {
                 errors.add(
                     attribute.value_range.clone(),
@@ -142,7 +149,8 @@ fn check_spots(script: &StageScript, index: usize, errors: &mut ErrorList) {
             }
             Some(_) => {}
             None => {
-                let help = suggestion(name, "ids of things", thing_names(script, |kind| kind != "path"));
+                let help =
+                    suggestion(name, "ids of things", thing_names(script, scope, |kind| kind != "path"));
                 errors.add(
                     attribute.value_range.clone(),
                     format!("no thing of the cast has the id \"{name}\""),
@@ -156,7 +164,8 @@ fn check_spots(script: &StageScript, index: usize, errors: &mut ErrorList) {
 fn check_property(script: &StageScript, index: usize, errors: &mut ErrorList) {
     let element = script.element(index);
     let (Some(name), Some(to)) = (element.attribute("property"), element.attribute("to")) else { return };
-    let thing = element.value("who").and_then(|who| script.thing_called(who));
+    let scope = script.scope(element);
+    let thing = element.value("who").and_then(|who| scope.thing(who));
     let Some(thing) = thing else { return };
     let kind = script.tree.elements[script.things[thing]].row.name;
     let Some(row) = property(kind, &name.value) else {

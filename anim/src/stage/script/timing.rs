@@ -1,12 +1,20 @@
 //! Times that the elements of actions have, and the actions before and after them.
 
-use super::{ScriptElement, StageScript};
-use crate::stage::time::{Decimal, StageTime, parse_time};
+use super::{ElementOrigin, ScriptElement, StageScript};
+use crate::stage::time::{Decimal, StageRate, StageTime, parse_time};
 
 impl StageScript {
     /// Returns the time that an attribute of an element has, written or by default.
     pub(in crate::stage) fn time(&self, element: &ScriptElement, name: &str) -> Option<StageTime> {
-        parse_time(element.value(name)?, self.rate)
+        parse_time(element.value(name)?, self.rate_of(element))
+    }
+
+    /// Returns the frame rate of the file that an element is in.
+    pub(in crate::stage) fn rate_of(&self, element: &ScriptElement) -> StageRate {
+        match element.origin {
+            ElementOrigin::Text | ElementOrigin::Project => self.rate,
+            ElementOrigin::Included(part) => self.tree.parts.get(part).map_or(self.rate, |part| part.rate),
+        }
     }
 
     /// Returns the factor of the speed of an action; 1 where it has none.

@@ -1,5 +1,6 @@
 //! The elements of a script with their places in the text.
 
+use super::origin::{ElementOrigin, IncludedPart, located};
 use super::{LineIndex, ScriptError, TextPlace};
 use crate::stage::table::{AttributeRow, ElementRow};
 use std::ops::Range;
@@ -31,13 +32,26 @@ pub struct ScriptElement {
     pub range: Range<usize>,
     /// Bytes of its name in the start tag.
     pub name: Range<usize>,
-    /// Whether it is of the project that the script belongs to. Its bytes are the end of the script's text then.
-    pub is_shared: bool,
+    /// Where it is written. Only those that the text itself has can be changed in it.
+    pub origin: ElementOrigin,
     /// Its attributes, in the order of the text. Those of other namespaces are left out.
     pub attributes: Vec<ScriptAttribute>,
 }
 
 impl ScriptElement {
+    /// Returns whether it is in the text itself.
+    pub fn is_own(&self) -> bool {
+        self.origin == ElementOrigin::Text
+    }
+
+    /// Returns whether it is in a file that the text includes.
+    pub fn is_included(&self) -> bool {
+        match self.origin {
+            ElementOrigin::Included(_) => true,
+            ElementOrigin::Text | ElementOrigin::Project => false,
+        }
+    }
+
     /// Returns the attribute called `name`, if it is written.
     pub fn attribute(&self, name: &str) -> Option<&ScriptAttribute> {
         self.attributes.iter().find(|attribute| attribute.row.name == name)
@@ -56,12 +70,17 @@ impl ScriptElement {
     }
 }
 
-/// The text of a script and its elements, in the order of their start tags; those that it shares with its project follow. Elements of other namespaces are left out.
+/// The text of a script and its elements, in the order of their start tags; those that it shares with its project follow, then those of the files
+/// that it includes. Elements of other namespaces are left out.
 #[derive(Clone, Debug)]
 pub struct ScriptTree {
     pub(super) text: Arc<str>,
     pub(super) lines: LineIndex,
     pub(super) elements: Vec<ScriptElement>,
+    /// What the includes of the text bring, each before what it includes itself.
+    pub(super) parts: Arc<[IncludedPart]>,
+    /// Number of nodes of the text: elements, texts and comments.
+    pub(super) nodes: usize,
 }
 
 impl ScriptTree {
@@ -89,9 +108,49 @@ impl ScriptTree {
         &self.elements
     }
 
-    /// Returns line and column of a byte of the text.
+    /// Returns line and column of a byte of the text; in its own file, for a byte of an element that is included.
     pub fn place(&self, at: usize) -> TextPlace {
-        self.lines.place(at)
+        IncludedPart::at(&self.parts, at).map_or_else(|| self.lines.place(at), |part| part.place(at))
+    }
+
+    /// Returns an error at some bytes of an element.
+    pub fn error(
+        &self,
+        range: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> ScriptError {
+        located(&self.lines, &self.parts, range, message.into(), help.into())
+    }
+
+    /// Returns the element of this index if the text itself has it.
+    pub(in crate::stage) fn own(&self, element: usize) -> Option<&ScriptElement> {
+        self.elements.get(element).filter(|element| element.is_own())
+    }
+
+    /// Returns the file of an element that is included, relative to the folder of the document; `None` for others.
+    pub fn file_of(&self, element: &ScriptElement) -> Option<&str> {
+        match element.origin {
+            ElementOrigin::Text | ElementOrigin::Project => None,
+            ElementOrigin::Included(part) => self.parts.get(part).map(|part| &*part.file),
+        }
+    }
+
+    /// Returns the bytes of the text that an element comes from: its own, or those of the `include` of the text that brings it. `None` for an
+    /// element of the project.
+    pub fn range_in_text(&self, element: &ScriptElement) -> Option<Range<usize>> {
+        match element.origin {
+            ElementOrigin::Text => Some(element.range.clone()),
+            ElementOrigin::Project => None,
+            ElementOrigin::Included(part) => {
+                Some(self.elements.get(self.parts.get(part)?.outermost)?.range.clone())
+            }
+        }
+    }
+
+    /// Returns the files that are included, each once, by their names relative to the folder of the document.
+    pub fn included_files(&self) -> std::collections::BTreeSet<&str> {
+        self.parts.iter().map(|part| &*part.file).collect()
     }
 
     /// Returns the innermost element that contains the byte at `at`: the one at the caret of an editor.
@@ -100,13 +159,14 @@ impl ScriptTree {
         self.elements.iter().rposition(|element| element.range.contains(&at))
     }
 
-    /// Returns `<NAME>` of an element, with its id or line: `<play id="grab"> (line 31)`.
+    /// Returns `<NAME>` of an element, with its id, line and file: `<play id="grab"> (line 31)`, `<play> (line 4 of intro.xml)`.
     pub(in crate::stage) fn title(&self, element: usize) -> String {
         let Some(element) = self.elements.get(element) else { return String::new() };
         let line = self.place(element.range.start).line;
+        let file = self.file_of(element).map_or(String::new(), |file| format!(" of {file}"));
         match element.value("id") {
-            Some(id) => format!("<{} id=\"{id}\"> (line {line})", element.row.name),
-            None => format!("<{}> (line {line})", element.row.name),
+            Some(id) => format!("<{} id=\"{id}\"> (line {line}{file})", element.row.name),
+            None => format!("<{}> (line {line}{file})", element.row.name),
         }
     }
 }

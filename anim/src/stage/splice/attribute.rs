@@ -2,13 +2,13 @@
 
 use super::tag::StartTag;
 use super::{TextSplices, escaped};
-use crate::stage::script::{ScriptElement, ScriptTree};
+use crate::stage::script::ScriptTree;
 
 /// Sets the attribute `name` of an element to `value`. The same text if it has that value already.
 ///
-/// `None` where there is no such element in the text: one of the project is not.
+/// `None` where there is no such element in the text: those of the project and of included files are not.
 pub fn set_attribute(tree: &ScriptTree, element: usize, name: &str, value: &str) -> Option<TextSplices> {
-    let (text, element) = (tree.text(), own(tree, element)?);
+    let (text, element) = (tree.text(), tree.own(element)?);
     if let Some(old) = element.attribute(name) {
         if &*old.value == value {
             return Some(TextSplices::default());
@@ -32,17 +32,12 @@ pub fn set_attribute(tree: &ScriptTree, element: usize, name: &str, value: &str)
 
 /// Removes the attribute `name` of an element, with the blanks in front of it. The same text if it is not written.
 ///
-/// `None` where there is no such element in the text: one of the project is not.
+/// `None` where there is no such element in the text: those of the project and of included files are not.
 pub fn remove_attribute(tree: &ScriptTree, element: usize, name: &str) -> Option<TextSplices> {
-    let (text, element) = (tree.text(), own(tree, element)?);
+    let (text, element) = (tree.text(), tree.own(element)?);
     let Some(old) = element.attribute(name) else { return Some(TextSplices::default()) };
     let tag = StartTag::of(text, element);
     let before = tag.attributes.iter().rev().find(|other| other.end <= old.range.start);
     let start = before.map_or(tag.name_end, |before| before.end);
     Some(TextSplices::one(start..old.range.end, ""))
-}
-
-/// Returns an element that the text has.
-fn own(tree: &ScriptTree, element: usize) -> Option<&ScriptElement> {
-    tree.elements().get(element).filter(|element| !element.is_shared)
 }

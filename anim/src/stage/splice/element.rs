@@ -45,7 +45,7 @@ pub fn move_to(
         around = tree.elements().get(index)?.parent;
     }
     let (text, range) = (tree.text(), taken(tree, element, comments)?);
-    let old = indentation(text, tree.elements().get(element)?.range.start).unwrap_or_default();
+    let old = indentation(text, tree.own(element)?.range.start).unwrap_or_default();
     let content = text.get(range.clone())?.trim_matches([' ', '\t', '\r', '\n']);
     let put = block(tree, place, content, old)?;
     if range.contains(&put.range.start) && put.range.start > range.start {
@@ -58,7 +58,7 @@ pub fn move_to(
 ///
 /// `None` where there is no such element, and for the script itself.
 pub fn duplicate(tree: &ScriptTree, element: usize) -> Option<TextSplices> {
-    let own = tree.elements().get(element)?;
+    let own = tree.own(element)?;
     let old = indentation(tree.text(), own.range.start).unwrap_or_default();
     let copy = with_new_ids(tree, element)?;
     Some(TextSplices::of(vec![block(tree, ElementPlace::After(element), &copy, old)?]))
@@ -66,7 +66,7 @@ pub fn duplicate(tree: &ScriptTree, element: usize) -> Option<TextSplices> {
 
 /// Returns the bytes that are taken out with an element: its whole lines where nothing else is in them.
 fn taken(tree: &ScriptTree, element: usize, comments: AttachedComments) -> Option<Range<usize>> {
-    let (text, element) = (tree.text(), tree.elements().get(element)?);
+    let (text, element) = (tree.text(), tree.own(element)?);
     element.parent?;
     let own = element.range.clone();
     let with_comments = comments == AttachedComments::Follow;

@@ -64,14 +64,14 @@ pub(super) fn block(tree: &ScriptTree, place: ElementPlace, content: &str, old: 
     let in_lines = |indent: &str| format!("{end}{indent}{}", super::layout::indented(content, old, indent));
     match place {
         ElementPlace::After(sibling) => {
-            let sibling = tree.elements().get(sibling).filter(|sibling| sibling.parent.is_some())?;
+            let sibling = tree.own(sibling).filter(|sibling| sibling.parent.is_some())?;
             let own_end = sibling.range.end;
             let Some(indent) = indentation(text, sibling.range.start) else { return Some(in_line(own_end)) };
             let at = rest_of_line(text, own_end, true).unwrap_or(own_end);
             Some(TextSplice { range: at..at, text: in_lines(indent) })
         }
         ElementPlace::First(parent) => {
-            let element = tree.elements().get(parent)?;
+            let element = tree.own(parent)?;
             let tag = StartTag::of(text, element);
             let own = indentation(text, element.range.start);
             let first = tree.elements().iter().find(|child| child.parent == Some(parent));

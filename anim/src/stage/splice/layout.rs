@@ -75,7 +75,7 @@ pub(super) fn comments_above(text: &str, start: usize) -> usize {
 /// Returns the indentation of one level: that of the first element that is indented more than its parent.
 pub(super) fn unit(tree: &ScriptTree) -> &str {
     let text = tree.text();
-    let of = |element: usize| indentation(text, tree.elements().get(element)?.range.start);
+    let of = |element: usize| indentation(text, tree.own(element)?.range.start);
     let steps = tree.elements().iter().enumerate().filter_map(|(index, element)| {
         let step = of(index)?.strip_prefix(of(element.parent?)?)?;
         (!step.is_empty()).then_some(step)

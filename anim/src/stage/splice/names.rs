@@ -1,8 +1,8 @@
 //! Names: new ones, and what refers to them.
 
 use super::{TextSplice, TextSplices, escaped};
-use crate::stage::script::{ScriptAttribute, ScriptTree, is_name};
-use crate::stage::table::NameReference;
+use crate::stage::script::{ScriptAttribute, ScriptElement, ScriptTree, is_name};
+use crate::stage::table::{ElementGroup, NameReference};
 use std::collections::HashMap;
 
 /// Returns a name that no element has: `base`, without what cannot be in a name, and with a number where it is taken.
@@ -26,10 +26,11 @@ fn unique(base: &str, is_taken: impl Fn(&str) -> bool) -> String {
     std::iter::once(base.clone()).chain(numbered).find(|name| !is_taken(name)).unwrap_or(base)
 }
 
-/// Returns whether a reference names the element called `id`.
+/// Returns whether a reference names the element called `id`. Those of included files count not: they have a cast of their own.
 pub fn is_used(tree: &ScriptTree, id: &str) -> bool {
     tree.elements()
         .iter()
+        .filter(|element| !element.is_included())
         .flat_map(|element| &element.attributes)
         .any(|attribute| named(attribute) == Some(id))
 }
@@ -38,16 +39,19 @@ pub fn is_used(tree: &ScriptTree, id: &str) -> bool {
 ///
 /// `None` where there is no such element in the text, where it has no id, and for an id that is no name or that another element has.
 pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Option<TextSplices> {
-    let own = tree.elements().get(element).filter(|element| !element.is_shared)?.attribute("id")?;
+    let own = tree.own(element)?.attribute("id")?;
     if &*own.value == id {
         return Some(TextSplices::default());
     }
-    let is_taken = tree.elements().iter().any(|element| element.value("id") == Some(id));
+    // The actions of included files have names of their own.
+    let counts =
+        |element: &&ScriptElement| !element.is_included() || element.row.group == ElementGroup::Thing;
+    let is_taken = tree.elements().iter().filter(counts).any(|element| element.value("id") == Some(id));
     if is_taken || id == "prev" || !is_name(id) {
         return None;
     }
     let names = HashMap::from([(&*own.value, id.to_owned())]);
-    let written = tree.elements().iter().filter(|element| !element.is_shared);
+    let written = tree.elements().iter().filter(|element| element.is_own());
     let attributes = written.flat_map(|element| &element.attributes);
     let text = tree.text();
     Some(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))

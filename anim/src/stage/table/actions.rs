@@ -291,6 +291,12 @@ pub(super) const TITLE: ElementRow = action(
     "A text over the image.",
 );
 
+pub(super) const INCLUDE: ElementRow = action(
+    "include",
+    &[TIMING, &[required("src", SOURCE, "File of the other script, relative to this one.")]],
+    "Another script, as a `par` of its actions.",
+);
+
 pub(super) const AT: ElementRow = ElementRow {
     group: ElementGroup::Part,
     ..action(

@@ -49,6 +49,7 @@ pub const ELEMENTS: &[&ElementRow] = &[
     &actions::CHANGE,
     &actions::SOUND,
     &actions::TITLE,
+    &actions::INCLUDE,
     &actions::AT,
 ];
 

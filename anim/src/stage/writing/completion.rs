@@ -67,6 +67,8 @@ pub struct CompletionNames<'a> {
     pub lines: &'a [&'a str],
     /// Files of sounds.
     pub sounds: &'a [&'a str],
+    /// Files of other scripts.
+    pub scripts: &'a [&'a str],
 }
 
 /// Returns what may be written at byte `at` of a text; `None` where nothing is suggested.
@@ -185,6 +187,7 @@ fn values(
         "property" => properties(&ids, tag.value("who")),
         "model" => files(names.models),
         "line" => files(names.lines),
+        "src" if element.name == "include" => files(names.scripts),
         "src" => files(names.sounds),
         "repeat" => vec![word(CompletionKind::Word, "fill", "For as long as there is time")],
         _ => match row.reference() {

@@ -4,11 +4,12 @@ use crate::Folder;
 use crate::adapter::{ModelAdapter, TextFiles};
 use crate::edit::TextRef;
 use crate::project_models::ProjectModels;
+use crate::scene_includes::read_includes;
 use crate::scene_lines::SceneLines;
 use crate::scene_model_source::SceneModelSource;
 use crate::text_source::is_project;
 use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::{ScriptError, StageScript};
+use dragonfly_anim::stage::script::{ScriptContext, ScriptError, StageScript};
 use dragonfly_anim::stage::{StageAssets, StagePlan};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -83,8 +84,14 @@ impl SceneAnswers {
     pub(super) fn errors(&mut self, texts: &TextFiles) -> Result<Value, String> {
         let checked = self.check(texts)?;
         let row = |error: &ScriptError| {
-            json!({"line": error.place.line, "column": error.place.column, "from": error.range.start,
-                   "to": error.range.end, "message": error.message, "help": error.help})
+            let mut row = json!({"line": error.place.line, "column": error.place.column, "from": error.range.start,
+                                 "to": error.range.end, "message": error.message, "help": error.help});
+            if let (Some(inside), Some(object)) = (&error.inside, row.as_object_mut()) {
+                let inside = json!({"file": &*inside.file, "line": inside.place.line, "column": inside.place.column,
+                                    "from": inside.range.start, "to": inside.range.end});
+                object.insert("inside".to_owned(), inside);
+            }
+            row
         };
         let [errors, notes] =
             [checked.errors, checked.notes].map(|list| list.iter().map(row).collect::<Vec<_>>());
@@ -113,9 +120,13 @@ impl SceneAnswers {
         };
         let row = |(action, times): (usize, &dragonfly_anim::stage::schedule::ActionTimes)| {
             let element = script.element(action);
-            json!({"line": script.tree().place(element.range.start).line, "action": element.row.name,
-                   "id": element.value("id"), "who": element.value("who"),
-                   "begin": times.begin.seconds(), "end": times.end.seconds()})
+            let mut row = json!({"line": script.tree().place(element.range.start).line, "action": element.row.name,
+                                 "id": element.value("id"), "who": element.value("who"),
+                                 "begin": times.begin.seconds(), "end": times.end.seconds()});
+            if let (Some(file), Some(object)) = (script.tree().file_of(element), row.as_object_mut()) {
+                object.insert("file".to_owned(), file.into());
+            }
+            row
         };
         let actions: Vec<Value> = plan.schedule().times().iter().enumerate().map(row).collect();
         Ok(json!({"length": plan.length().seconds(), "actions": actions}))
@@ -136,7 +147,13 @@ impl SceneAnswers {
             project = Some(found);
         }
         let name = file.name.clone();
-        let script = match StageScript::read_of(Arc::clone(&file.text), project.as_ref()) {
+        let folder = self.folder.as_ref().map_err(Clone::clone);
+        let context = ScriptContext {
+            name: name.clone(),
+            project: project.clone(),
+            files: read_includes((&name, &file.text), texts, folder),
+        };
+        let script = match StageScript::read_in(Arc::clone(&file.text), &context) {
             Ok(script) => script,
             Err(errors) => return Ok(CheckedScript { name, errors, ..CheckedScript::default() }),
         };
@@ -188,9 +205,8 @@ impl SceneAnswers {
                     tried.insert(name, None);
                     self.assets.remove_model(name);
                     self.read.remove(name);
-                    let (text, range) = (script.tree().text(), attribute.value_range.clone());
                     let help = "models are files below the folder of the script";
-                    errors.push(ScriptError::at(text, range, reason, help));
+                    errors.push(script.tree().error(attribute.value_range.clone(), reason, help));
                 }
             }
         }

@@ -70,6 +70,9 @@ struct ScriptTimes {
 /// One action.
 #[derive(Serialize)]
 struct ActionRow {
+    /// The included file that it is in; absent for the script itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
     line: u32,
     action: &'static str,
     id: Option<String>,
@@ -98,6 +101,7 @@ impl ScriptTimes {
             let element = scene.script.element(action);
             let value = |name: &str| element.value(name).map(str::to_owned);
             ActionRow {
+                file: scene.script.tree().file_of(element).map(str::to_owned),
                 line: scene.script.tree().place(element.range.start).line,
                 action: element.row.name,
                 id: value("id"),
@@ -120,7 +124,7 @@ impl ScriptTimes {
         ]);
         for row in &self.actions {
             table.row([
-                row.line.to_string(),
+                row.file.as_ref().map_or_else(|| row.line.to_string(), |file| format!("{file}:{}", row.line)),
                 row.action.to_owned(),
                 row.id.clone().unwrap_or_default(),
                 row.who.clone().unwrap_or_default(),

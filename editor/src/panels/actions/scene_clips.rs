@@ -8,8 +8,8 @@ use crate::panels::scene::shots::shots_of;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clip, duplicate_clip, move_clip, trim_end,
-    trim_start,
+    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clip, duplicate_clip, in_this_text, move_clip,
+    trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::script::ScriptTree;
@@ -114,6 +114,9 @@ fn each_thing(
     change: impl Fn(&ScriptTree, usize) -> Result<Option<TextSplices>, GestureRefusal>,
 ) -> Result<String, GestureRefusal> {
     let mut tree = base.script.tree().clone();
+    for element in things.iter().filter_map(|thing| base.script.thing_element(thing)) {
+        in_this_text(&tree, element)?;
+    }
     for thing in things {
         let found = tree.elements().iter().position(|element| {
             element.row.group == ElementGroup::Thing && element.value("id") == Some(thing)

@@ -9,7 +9,9 @@ use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
 use dragonfly_anim::stage::StageScene;
-use dragonfly_anim::stage::gesture::{GestureRefusal, face_splices, place_splices, spliced_text};
+use dragonfly_anim::stage::gesture::{
+    GestureRefusal, face_splices, in_this_text, place_splices, spliced_text,
+};
 use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
@@ -283,6 +285,9 @@ impl BaseMoment<'_> {
 
     fn set(&self, id: &str, attribute: &str, value: &str) -> Result<TextSplices, GestureRefusal> {
         let script = &self.base.script;
+        if let Some(element) = script.thing_element(id) {
+            in_this_text(script.tree(), element)?;
+        }
         let splices =
             script.thing_element(id).and_then(|own| set_attribute(script.tree(), own, attribute, value));
         splices.ok_or_else(|| GestureRefusal(format!("{attribute} of {id} cannot be written here")))

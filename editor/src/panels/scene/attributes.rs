@@ -8,8 +8,8 @@ use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
 use super::thing_icon::icon;
 use super::{SceneBase, SceneRequest, ScriptChange};
-use dragonfly_anim::stage::gesture::GestureRefusal;
-use dragonfly_anim::stage::script::{ScriptElement, StageScript};
+use dragonfly_anim::stage::gesture::{GestureRefusal, in_this_text};
+use dragonfly_anim::stage::script::{ElementOrigin, ScriptElement, StageScript};
 use dragonfly_anim::stage::splice::{remove_attribute, rename, set_attribute};
 use dragonfly_anim::stage::table::AttributeRow;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
@@ -53,7 +53,8 @@ impl Panel for SceneAttributes {
         let is_locked = [own.value("who"), own.value("id")]
             .into_iter()
             .flatten()
-            .any(|id| context.scene_editing.is_locked(id));
+            .any(|id| context.scene_editing.is_locked(id))
+            || !own.is_own();
         heading(ui, own, script);
         ui.add_enabled_ui(!is_locked, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -85,7 +86,12 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
         let name = element.value("id").or_else(|| element.value("who")).unwrap_or_default();
         ui.label(RichText::new(format!("{} {name}", element.row.name)).color(theme.text));
         let line = script.tree().place(element.range.start).line;
-        ui.label(RichText::new(format!("line {line}")).small().color(theme.faint));
+        let place = match (element.origin, script.tree().file_of(element)) {
+            (ElementOrigin::Project, _) => "of the project".to_owned(),
+            (ElementOrigin::Included(_), Some(file)) => format!("line {line} of {file}"),
+            (ElementOrigin::Text | ElementOrigin::Included(_), _) => format!("line {line}"),
+        };
+        ui.label(RichText::new(place).small().color(theme.faint));
     });
     ui.horizontal(|ui| {
         ui.add_space(2.0 * GRID);
@@ -168,6 +174,7 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         let scene = context.scene().ok_or_else(|| refused("No scene is open".to_owned()))?;
         let base = SceneBase::of(scene, context.scene_editing.text(scene))?;
         let tree = base.script.tree();
+        in_this_text(tree, element)?;
         let is_name =
             row.name == "id" && tree.elements().get(element).is_some_and(|own| own.attribute("id").is_some());
         if !value.is_empty() && !row.value.accepts(value, base.script.rate()) {
@@ -180,8 +187,10 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         };
         let text = splices.map(|splices| splices.apply(tree.text()));
         let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
-        // A reference to something that does not exist is refused with its reason.
-        base.script.reread(text.as_str())?;
+        // A reference to something that does not exist is refused with its reason; an included file is not read yet.
+        if !tree.elements().get(element).is_some_and(|own| own.row.name == "include" && row.name == "src") {
+            base.script.reread(text.as_str())?;
+        }
         Ok(SceneRequest::Text(ScriptChange {
             from: Arc::clone(tree.text()),
             text,

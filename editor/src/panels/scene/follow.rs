@@ -6,12 +6,17 @@ use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 /// the same apart from its times. `None` where it is gone.
 pub(super) fn follow_action(old: &StageScript, action: usize, new: &StageScript) -> Option<usize> {
     let element = old.actions().get(action).map(|_| old.element(action))?;
+    if element.is_included() {
+        return follow_included(old, action, new);
+    }
     if let Some(id) = element.value("id") {
         return new.action_called(id);
     }
     let same_count = old.actions().len() == new.actions().len();
-    let is_same =
-        |other: usize| new.element(other).attribute("id").is_none() && is_alike(element, new.element(other));
+    let is_same = |other: usize| {
+        let other = new.element(other);
+        other.is_own() && other.attribute("id").is_none() && is_alike(element, other)
+    };
     // Most edits change attributes of one action and leave all others where they are.
     if same_count && action < new.actions().len() && new.element(action).row.name == element.row.name {
         let around = |script: &StageScript, at: usize| script.actions()[at].parent;
@@ -22,6 +27,15 @@ pub(super) fn follow_action(old: &StageScript, action: usize, new: &StageScript)
         }
     }
     (1..new.actions().len()).filter(|&other| is_same(other)).min_by_key(|other| other.abs_diff(action))
+}
+
+/// Returns the action of an included file that was a given one: at the same place after its `include`, if it is the same apart from its times.
+fn follow_included(old: &StageScript, action: usize, new: &StageScript) -> Option<usize> {
+    let include = old.action_in_text(action);
+    let found = follow_action(old, include, new)? + (action - include);
+    let (element, other) = (old.element(action), new.actions().get(found).map(|_| new.element(found))?);
+    let is_same = other.is_included() && is_alike(element, other);
+    (is_same && old.tree().file_of(element) == new.tree().file_of(other)).then_some(found)
 }
 
 /// Returns whether two elements are the same apart from their times.

@@ -137,7 +137,7 @@ pub fn with_new_sound(
 
 /// Returns whether an element of this name is in the text of the script itself.
 fn is_own(element: &ScriptElement, name: &str) -> bool {
-    element.row.name == name && !element.is_shared
+    element.row.name == name && element.is_own()
 }
 
 fn inserted(

@@ -5,6 +5,7 @@ use crate::panels::name_field::{INDENT, NameField, NameFieldEnd};
 use crate::panels::request::Request;
 use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
 use crate::panels::style::ROW;
+use dragonfly_anim::stage::gesture::in_this_text;
 use dragonfly_anim::stage::splice::rename;
 use egui::{Rect, Sense, TextStyle, Ui, pos2, vec2};
 
@@ -52,7 +53,11 @@ fn renamed(context: &PanelContext<'_>, thing: &str, name: &str) -> SceneRequest 
         Err(refusal) => return SceneRequest::Refused(refusal.to_string()),
     };
     let tree = base.script.tree();
-    match base.script.thing_element(thing).and_then(|element| rename(tree, element, name)) {
+    let element = base.script.thing_element(thing);
+    if let Some(Err(refusal)) = element.map(|element| in_this_text(tree, element)) {
+        return SceneRequest::Refused(refusal.to_string());
+    }
+    match element.and_then(|element| rename(tree, element, name)) {
         Some(splices) => SceneRequest::Text(ScriptChange {
             from: std::sync::Arc::clone(tree.text()),
             text: splices.apply(tree.text()),

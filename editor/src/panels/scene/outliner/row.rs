@@ -89,7 +89,8 @@ pub(super) fn show(
         requests.push(Request::Scene(SceneRequest::SelectThings(vec![id.into()], Choice::Replace)));
     }
     response.on_hover_ui(|ui| {
-        ui.label(hint(thing, model));
+        let file = scene.script.as_ref().and_then(|script| script.tree().file_of(thing));
+        ui.label(hint(thing, model, file));
     });
     clicked
 }
@@ -111,7 +112,7 @@ fn model_state(model: Option<&SceneModel>) -> Option<(&'static str, bool)> {
     }
 }
 
-fn hint(thing: &ScriptElement, model: Option<&SceneModel>) -> String {
+fn hint(thing: &ScriptElement, model: Option<&SceneModel>, file: Option<&str>) -> String {
     let (kind, id) = (thing.row.name, thing.value("id").unwrap_or_default());
     let source = thing.value("model").map(|source| format!("\n{source}")).unwrap_or_default();
     let reason = match model {
@@ -123,7 +124,8 @@ fn hint(thing: &ScriptElement, model: Option<&SceneModel>) -> String {
     } else {
         "\nDouble-click: rename"
     };
-    format!("{kind} {id}{source}{reason}{action}")
+    let file = file.map(|file| format!("\nIn {file}: open it to change it")).unwrap_or_default();
+    format!("{kind} {id}{source}{file}{reason}{action}")
 }
 
 fn menu(

@@ -257,8 +257,17 @@ impl ScriptPanel {
         let played = scene.plan.iter().flat_map(|plan| plan.sounds());
         let sounds: BTreeSet<&str> = played.map(|sound| &*sound.source).collect();
         let sounds = Vec::from_iter(sounds);
+        let scripts = script_names(scene);
+        let scripts: Vec<&str> = scripts.iter().map(String::as_str).collect();
         let (plan, project) = (scene.plan.as_deref(), scene.project.as_deref());
-        let names = CompletionNames { plan, project, models: &models, lines: &lines, sounds: &sounds };
+        let names = CompletionNames {
+            plan,
+            project,
+            models: &models,
+            lines: &lines,
+            sounds: &sounds,
+            scripts: &scripts,
+        };
         let found = completions(self.buffer.as_str(), at, &names);
         // Unasked, a list appears only where something of the word is typed, or a tag or value begins.
         let begins =
@@ -307,8 +316,19 @@ fn selected_range(scene: &SceneView, context: &PanelContext<'_>) -> Option<Range
     }
     if let Some(action) = editing.action() {
         script.actions().get(action)?;
-        return Some(script.element(action).range.clone());
+        return script.tree().range_in_text(script.element(action));
     }
     let element = script.thing_element(editing.things().last()?)?;
-    Some(script.tree().elements()[element].range.clone())
+    script.tree().range_in_text(&script.tree().elements()[element])
+}
+
+/// Returns the files that the script may include, as it would write them: the other scripts of its project, those that it includes, and
+/// those next to one that is missing.
+fn script_names(scene: &SceneView) -> BTreeSet<String> {
+    let of_project = scene.project.iter().flat_map(|project| project.scripts());
+    let included = scene.includes.texts().map(|(name, _)| name);
+    let beside = scene.includes.missing().flat_map(|(_, missing)| missing.beside.iter().map(String::as_str));
+    let folder = scene.name.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
+    let others = of_project.chain(included).chain(beside).filter(|name| **name != *scene.name);
+    others.filter_map(|name| name.strip_prefix(&folder)).map(str::to_owned).collect()
 }

@@ -7,7 +7,8 @@ use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, readout};
 use crate::panels::request::Request;
 use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
 use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureRefusal, SequenceOrder, move_clip, set_fade, set_speed, trim_end, trim_start,
+    FadeEnd, Followers, GestureRefusal, SequenceOrder, in_this_text, move_clip, set_fade, set_speed,
+    trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::time::{StageRate, StageTime, TICKS_PER_SECOND};
@@ -154,6 +155,9 @@ fn begin(
         return Err(GestureRefusal(format!("{} is locked", lane.name)));
     }
     let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene))?;
+    if let Some(own) = base.script.actions().get(action) {
+        in_this_text(base.script.tree(), own.element)?;
+    }
     let gesture = sheet.context.new_gesture();
     Ok(Some(HeldBar {
         base,

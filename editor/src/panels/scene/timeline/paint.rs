@@ -51,7 +51,7 @@ pub(super) fn lanes(painter: &Painter, sheet: &SceneSheet<'_>) {
     }
 }
 
-/// Draws all bars.
+/// Draws all bars; those of included files are dim, because they are changed there.
 pub(super) fn bars(
     painter: &Painter,
     sheet: &SceneSheet<'_>,
@@ -75,7 +75,7 @@ pub(super) fn bars(
             {
                 let is_hovered =
                     matches!(hovered, Some(SceneHit::Bar { action, .. }) if action == bar.action);
-                let state = BarState { is_hovered, is_dim };
+                let state = BarState { is_hovered, is_dim: is_dim || bar.file.is_some() };
                 draw_bar(&painter, sheet, (lane, bar, rect), state, contents);
                 if let Some((_, other)) =
                     before.filter(|(other, _)| bar.is_main && other.is_main && bar.kind != "shot")
@@ -167,7 +167,7 @@ fn draw_bar(
             }
         }
     }
-    if is_hovered || is_selected {
+    if (is_hovered || is_selected) && bar.file.is_none() {
         for (_, x) in fade_handles(bar, rect, sheet.scale).into_iter().flatten() {
             let x = between(x, rect.left() + 3.0, rect.right() - 3.0);
             painter.circle_filled(pos2(x, rect.top() + 3.0), 2.6, theme.text);

@@ -1,0 +1,96 @@
+//! Where the elements of a script are written: in its text, in its project, or in a file that it includes.
+//!
+//! Elements of included files have ranges too: bytes behind the end of the text, file after file. So what reports an error at a range
+//! need not know where that is, and a splice of the text at such a range finds no bytes there.
+
+use super::error::ScriptError;
+use super::text_place::{LineIndex, TextPlace};
+use super::tree::ScriptTree;
+use crate::stage::time::StageRate;
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Where an element of a script is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ElementOrigin {
+    /// In the text of the script.
+    #[default]
+    Text,
+    /// In the cast of the project that the script belongs to. Its bytes are the end of the script's text then.
+    Project,
+    /// In an included file: the number of the included part. Its bytes are behind the end of the script's text then.
+    Included(usize),
+}
+
+/// A place in an included file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct IncludedPlace {
+    /// The file, relative to the folder of the document.
+    pub file: Arc<str>,
+    /// The bytes in it.
+    pub range: Range<usize>,
+    /// Line and column of their start.
+    pub place: TextPlace,
+}
+
+impl fmt::Display for IncludedPlace {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}:{}", self.file, self.place)
+    }
+}
+
+/// The elements that one `include` brings.
+#[derive(Clone, Debug)]
+pub(in crate::stage) struct IncludedPart {
+    /// The file, relative to the folder of the document.
+    pub(super) file: Arc<str>,
+    /// Its own tree.
+    pub(super) tree: Arc<ScriptTree>,
+    /// The frame rate that its times in frames have.
+    pub(super) rate: StageRate,
+    /// The element of the `include`.
+    pub(super) include: usize,
+    /// The element of the `include` in the text of the script: the same, or the outermost one around it.
+    pub(super) outermost: usize,
+    /// The bytes of the name of that.
+    pub(super) name: Range<usize>,
+    /// Its own elements.
+    pub(super) elements: Range<usize>,
+    /// The number of the part after the last one that is included by it or by what it includes.
+    pub(super) end: usize,
+    /// The first of the bytes that stand for the file.
+    pub(super) base: usize,
+}
+
+impl IncludedPart {
+    /// Returns the part with a byte; `None` for a byte of the text itself.
+    pub(super) fn at(parts: &[Self], at: usize) -> Option<&Self> {
+        parts[..parts.partition_point(|part| part.base <= at)].last()
+    }
+
+    /// Returns line and column in the file of a byte.
+    pub(super) fn place(&self, at: usize) -> TextPlace {
+        self.tree.place(at.saturating_sub(self.base))
+    }
+}
+
+/// Returns an error at some bytes of a text with its included parts.
+pub(super) fn located(
+    lines: &LineIndex,
+    parts: &[IncludedPart],
+    range: Range<usize>,
+    message: String,
+    help: String,
+) -> ScriptError {
+    let Some(part) = IncludedPart::at(parts, range.start) else {
+        return ScriptError { place: lines.place(range.start), range, inside: None, message, help };
+    };
+    let inside = IncludedPlace {
+        file: Arc::clone(&part.file),
+        place: part.place(range.start),
+        range: range.start - part.base..range.end.max(range.start) - part.base,
+    };
+    let (place, range) = (lines.place(part.name.start), part.name.clone());
+    ScriptError { place, range, inside: Some(Box::new(inside)), message, help }
+}
