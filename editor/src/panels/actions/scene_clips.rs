@@ -17,6 +17,7 @@ use dragonfly_anim::stage::splice::{
     AttachedComments, TextSplices, delete as delete_element, duplicate as duplicate_element, is_used,
 };
 use dragonfly_anim::stage::table::ElementGroup;
+use dragonfly_document::edit::ScriptLabel;
 
 fn followers(workspace: &Workspace) -> Followers {
     if workspace.scene.ripple() { Followers::Follow } else { Followers::Stay }
@@ -39,7 +40,7 @@ fn unlocked_action(workspace: &mut Workspace) -> Option<usize> {
 pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at, followers) =
         (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, "Move clip", |base| {
+    gesture(workspace, ScriptLabel::MoveClip, |base| {
         move_clip(&base.scene(), action, at, SequenceOrder::Keep, followers)
     })
 }
@@ -47,7 +48,7 @@ pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect
 /// Moves the selected action by frames.
 pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option<Effect> {
     let (action, followers) = (unlocked_action(workspace)?, followers(workspace));
-    gesture(workspace, "Move clip", |base| {
+    gesture(workspace, ScriptLabel::MoveClip, |base| {
         let rate = base.script.rate();
         let begin = base.plan.schedule().times().get(action).map(|times| times.begin).unwrap_or_default();
         let frame = rate.nearest_frame(begin);
@@ -61,24 +62,24 @@ pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option
 /// Lets the selected action start at the playhead.
 pub(in crate::panels) fn start_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at) = (unlocked_action(workspace)?, workspace.read().scene_time());
-    gesture(workspace, "Trim start", |base| trim_start(&base.scene(), action, at))
+    gesture(workspace, ScriptLabel::TrimStart, |base| trim_start(&base.scene(), action, at))
 }
 
 /// Lets the selected action end at the playhead.
 pub(in crate::panels) fn end_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at, followers) =
         (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, "Trim end", |base| trim_end(&base.scene(), action, at, followers))
+    gesture(workspace, ScriptLabel::TrimEnd, |base| trim_end(&base.scene(), action, at, followers))
 }
 
 /// Duplicates the selected action, or the selected things.
 pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
     if workspace.scene.action().is_some() {
         let action = unlocked_action(workspace)?;
-        return gesture(workspace, "Duplicate", |base| duplicate_clip(&base.scene(), action));
+        return gesture(workspace, ScriptLabel::Duplicate, |base| duplicate_clip(&base.scene(), action));
     }
     let things = workspace.scene.things().to_vec();
-    gesture(workspace, "Duplicate", |base| {
+    gesture(workspace, ScriptLabel::Duplicate, |base| {
         each_thing(base, &things, |tree, element| Ok(duplicate_element(tree, element)))
     })
 }
@@ -88,7 +89,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
     if workspace.scene.action().is_some() {
         let action = unlocked_action(workspace)?;
         let followers = if lift { Followers::Stay } else { followers(workspace) };
-        return gesture(workspace, "Delete", |base| delete_clip(&base.scene(), action, followers));
+        return gesture(workspace, ScriptLabel::Delete, |base| delete_clip(&base.scene(), action, followers));
     }
     let things: Vec<Box<str>> =
         workspace.scene.things().iter().filter(|thing| !workspace.scene.is_locked(thing)).cloned().collect();
@@ -96,7 +97,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         workspace.say(MessageSeverity::Info, "What is selected is locked");
         return None;
     }
-    gesture(workspace, "Delete", |base| {
+    gesture(workspace, ScriptLabel::Delete, |base| {
         each_thing(base, &things, |tree, element| {
             let id = tree.elements()[element].value("id").unwrap_or_default();
             if is_used(tree, id) {
@@ -131,7 +132,7 @@ fn each_thing(
 /// Inserts a shot of the camera after the one that is seen at the playhead.
 pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
-    gesture(workspace, "Add shot", |base| {
+    gesture(workspace, ScriptLabel::AddShot, |base| {
         let cameras: Vec<&str> = base
             .plan
             .things()
@@ -155,7 +156,7 @@ pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect
 /// Inserts a shot of the selected camera.
 pub(in crate::panels) fn cut_to_selected(workspace: &mut Workspace) -> Option<Effect> {
     let (at, camera) = (workspace.read().scene_time(), workspace.scene.things().last()?.clone());
-    gesture(workspace, "Add shot", |base| cut_to(&base.scene(), &camera, at))
+    gesture(workspace, ScriptLabel::AddShot, |base| cut_to(&base.scene(), &camera, at))
 }
 
 /// Moves the playhead to the start of the next shot, or of the one before the playhead.

@@ -2,6 +2,7 @@
 
 use crate::panels::keys::TimeWindow;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::ThroughCamera;
 use std::sync::Arc;
@@ -14,7 +15,7 @@ pub struct ScriptChange {
     /// The new text.
     pub text: String,
     /// Label of the step in the history.
-    pub label: &'static str,
+    pub label: ScriptLabel,
     /// The gesture that it belongs to.
     pub gesture: Option<Gesture>,
 }

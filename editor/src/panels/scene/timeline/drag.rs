@@ -13,6 +13,7 @@ use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::time::{StageRate, StageTime, TICKS_PER_SECOND};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::history::Gesture;
 use egui::{CursorIcon, Pos2, Response, Ui};
 use glam::Vec2;
@@ -226,21 +227,23 @@ impl HeldBar {
         edge: StageTime,
         alt: bool,
         followers: Followers,
-    ) -> (&'static str, Result<String, GestureRefusal>) {
+    ) -> (ScriptLabel, Result<String, GestureRefusal>) {
         let (scene, action) = (self.base.scene(), self.bar.action);
         match self.part {
             SceneBarPart::Body => {
                 let order = if alt { SequenceOrder::Keep } else { SequenceOrder::Change };
-                ("Move clip", move_clip(&scene, action, edge, order, followers))
+                (ScriptLabel::MoveClip, move_clip(&scene, action, edge, order, followers))
             }
-            SceneBarPart::Start => ("Trim start", trim_start(&scene, action, edge)),
-            SceneBarPart::End if alt => ("Change speed", set_speed(&scene, action, self.speed_to(edge))),
-            SceneBarPart::End => ("Trim end", trim_end(&scene, action, edge, followers)),
+            SceneBarPart::Start => (ScriptLabel::TrimStart, trim_start(&scene, action, edge)),
+            SceneBarPart::End if alt => {
+                (ScriptLabel::ChangeSpeed, set_speed(&scene, action, self.speed_to(edge)))
+            }
+            SceneBarPart::End => (ScriptLabel::TrimEnd, trim_end(&scene, action, edge, followers)),
             SceneBarPart::FadeIn => {
-                ("Change fade", set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin))
+                (ScriptLabel::ChangeFade, set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin))
             }
             SceneBarPart::FadeOut => {
-                ("Change fade", set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge))
+                (ScriptLabel::ChangeFade, set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge))
             }
         }
     }
