@@ -46,6 +46,8 @@ pub enum SceneRequest {
     SelectThings(Vec<Box<str>>, Choice),
     /// Selects an action, or none.
     SelectAction(Option<usize>),
+    /// Selects actions: replaces, adds or toggles them.
+    SelectActions(Vec<usize>, Choice),
     /// The cursor of the script is at this byte: what is there is selected.
     Cursor(usize),
     /// Hides things, or shows them again.

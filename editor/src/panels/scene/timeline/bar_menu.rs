@@ -64,6 +64,10 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
         });
     }
     ui.separator();
+    for id in [Id::CutActions, Id::CopyActions, Id::PasteActions] {
+        item(ui, sheet.context, id, false, requests);
+    }
+    ui.separator();
     for id in [Id::SceneDuplicate, Id::SceneDelete, Id::SceneLift] {
         item(ui, sheet.context, id, false, requests);
     }

@@ -34,7 +34,10 @@ impl SceneMenu {
         }
         if response.secondary_clicked() {
             self.on = drag.hovered();
-            if let Some(SceneHit::Bar { action, .. }) = self.on {
+            // Of several selected actions each one opens the menu for all.
+            if let Some(SceneHit::Bar { action, .. }) = self.on
+                && !sheet.context.scene_editing.actions().contains(&action)
+            {
                 requests.push(Request::Scene(SceneRequest::SelectAction(Some(action))));
             }
         }
@@ -116,6 +119,9 @@ fn general(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {
             });
         }
     });
+    ui.separator();
+    item(ui, sheet.context, Id::PasteActions, false, requests);
+    item(ui, sheet.context, Id::SelectAllActions, false, requests);
     ui.separator();
     for id in [Id::FitScene, Id::ToggleSceneRipple, Id::ToggleSnap] {
         let on = match id {
