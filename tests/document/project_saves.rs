@@ -2,7 +2,7 @@
 
 use super::projects::{END, LINES, MAIN, PROJECT, is_read, project, replaced_in, restored, text_of};
 use super::scenes::{replaced, scene_of};
-use dragonfly_document::edit::{Edit, EditScript, ScriptSplice, TextRef};
+use dragonfly_document::edit::{Edit, EditScript, ScriptLabel, ScriptSplice, TextRef};
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{
     Cancel, Change, DocumentMessage, DocumentReply, Editable, NotSaved, SaveOrder, SaveTo, SceneModel,
@@ -224,7 +224,7 @@ fn a_line_that_gets_another_name_takes_its_paths_along_in_one_step() {
     let mut document = TestDocument::new(&folder.join("autosave"));
     document.open(&path);
     let view = document.wait_for_view(is_read);
-    let paths = paths_of_renamed_line(scene_of(&view), "aisle", "row", "Rename").expect("edits");
+    let paths = paths_of_renamed_line(scene_of(&view), "aisle", "row", ScriptLabel::Rename).expect("edits");
     let Edit::EditScript(edit) = replaced_in("foxes.lines.xml", LINES, "aisle", "row") else {
         panic!("another edit")
     };
@@ -239,7 +239,7 @@ fn a_line_that_gets_another_name_takes_its_paths_along_in_one_step() {
     document.edit(replaced_in("main.xml", MAIN, "<path ", "<pth "));
     let view = document.wait_for_view(|view| view.history.done == 1);
     assert!(
-        paths_of_renamed_line(scene_of(&view), "aisle", "row", "Rename").is_err(),
+        paths_of_renamed_line(scene_of(&view), "aisle", "row", ScriptLabel::Rename).is_err(),
         "its paths are not known"
     );
 }

@@ -7,6 +7,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::{SceneRequest, ScriptChange};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::Change;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::{Vec2, Vec3};
@@ -111,7 +112,7 @@ fn a_camera_stays_attached_while_the_document_has_not_answered() {
     let typed = ScriptChange {
         from: FOXES.into(),
         text: FOXES.replace("The End", "Fin"),
-        label: "Type",
+        label: ScriptLabel::Type,
         gesture: None,
     };
     let sent = frame(bench, now, vec![Request::Scene(SceneRequest::Text(typed))]);
@@ -175,7 +176,8 @@ fn a_text_that_comes_after_its_drag_was_cancelled_is_not_shown() {
     let gesture = window.state().state.read().new_gesture();
     let moved = |to: &str| {
         let text = FOXES.replace("at=\"0.6 0 0.8\"", &format!("at=\"{to}\""));
-        let change = ScriptChange { from: FOXES.into(), text, label: "Move thing", gesture: Some(gesture) };
+        let change =
+            ScriptChange { from: FOXES.into(), text, label: ScriptLabel::MoveThing, gesture: Some(gesture) };
         Request::Scene(SceneRequest::Text(change))
     };
     let change = |window: &mut Window, request: Request| {

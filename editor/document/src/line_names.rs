@@ -1,7 +1,7 @@
 //! Names of drawn lines: what follows a line is changed in the same step as its name.
 
 use super::SceneView;
-use super::edit::{EditScript, TextRef};
+use super::edit::{EditScript, ScriptLabel, TextRef};
 use dragonfly_anim::stage::script::ScriptTree;
 use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ pub fn paths_of_renamed_line(
     scene: &SceneView,
     old: &str,
     new: &str,
-    label: &str,
+    label: ScriptLabel,
 ) -> Result<Vec<EditScript>, &'static str> {
     let Some(project) = &scene.project else { return Ok(Vec::new()) };
     let mut edits = Vec::new();

@@ -1,14 +1,14 @@
 //! Edits of a model that its project keeps: a file with one edit a line, which the project names.
 
 use super::adapter::{TextFile, TextFiles};
-use super::edit::{Edit, EditScript, ScriptSplice, TextRef};
+use super::edit::{Edit, EditScript, ScriptLabel, ScriptSplice, TextRef};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, set_attribute};
 use std::collections::HashSet;
 
 /// Name of the step of a project by which it gets edits of a model.
-const LABEL: &str = "Edit model";
+const LABEL: ScriptLabel = ScriptLabel::EditModel;
 
 /// A model whose edits a project gets.
 pub(super) struct EditedModel<'a> {
@@ -52,7 +52,7 @@ pub(super) fn kept_in(
         ),
         None => {
             let splices = vec![ScriptSplice { at: 0, old: String::new(), new: lines }];
-            let label = Some(LABEL.to_owned());
+            let label = Some(LABEL.text().to_owned());
             parts.push(EditScript { text: text_ref(), create: true, splices, label, also: Vec::new() });
         }
     }

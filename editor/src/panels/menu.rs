@@ -197,6 +197,7 @@ const GROUP_ENDS: &[Id] = &[
     Id::NextShot,
     Id::ClipEndToPlayhead,
     Id::NextAction,
+    Id::PasteActions,
     Id::SceneLift,
 ];
 

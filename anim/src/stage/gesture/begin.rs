@@ -99,3 +99,9 @@ pub(super) fn kept_follower(
     (by != StageTime::ZERO && !scene.script.actions()[action].passive)
         .then(|| moved_moment(scene, next, "begin", -by).change)
 }
+
+/// Returns the time at which an action begins without a `begin`.
+pub(super) fn usual_begin(scene: &GestureScene<'_>, action: usize) -> StageTime {
+    let parent = || scene.times(scene.script.actions()[action].parent.unwrap_or(0)).begin;
+    scene.script.before_in_seq(action).map_or_else(parent, |before| scene.times(before).end)
+}

@@ -22,7 +22,8 @@ impl<'a> ScriptDraft<'a> {
         Self { script, tree: None }
     }
 
-    fn tree(&self) -> &ScriptTree {
+    /// Returns the text so far with its elements.
+    pub(super) fn tree(&self) -> &ScriptTree {
         self.tree.as_ref().unwrap_or_else(|| self.script.tree())
     }
 
@@ -39,6 +40,19 @@ impl<'a> ScriptDraft<'a> {
         }
         let text = splices.apply(self.tree().text());
         Ok(Self { tree: Some(ScriptTree::read(text)?), ..self })
+    }
+
+    /// Goes on with the text of `script`, which was made from the one at the start.
+    pub(super) fn becoming(self, script: &StageScript) -> Self {
+        Self { tree: Some(script.tree().clone()), ..self }
+    }
+
+    /// Returns the script that the text is now; `None` while it is the one at the start.
+    pub(super) fn read(&self) -> Result<Option<StageScript>, GestureRefusal> {
+        Ok(match &self.tree {
+            Some(tree) => Some(self.script.with_tree(tree.clone())?),
+            None => None,
+        })
     }
 
     /// Refuses an element that is in another text.

@@ -1,6 +1,7 @@
 //! New actions: shots, clips, attachments.
 
 use super::draft::ScriptDraft;
+use super::mixes::{ActionOrigins, mixed, with_children};
 use super::scene::{GestureRefusal, GestureScene, refused};
 use crate::stage::script::ScriptElement;
 use crate::stage::splice::{ElementPlace, NewElement, insert};
@@ -9,9 +10,9 @@ use crate::stage::time::StageTime;
 use crate::stage::time_text::{readable, time_text};
 
 /// A place for a new action, and the time from which its `begin` counts.
-struct ActionPlace {
-    place: ElementPlace,
-    base: StageTime,
+pub(super) struct ActionPlace {
+    pub(super) place: ElementPlace,
+    pub(super) base: StageTime,
 }
 
 /// Cuts to a camera at `at`: a new shot, or another camera for the shot that begins then.
@@ -92,7 +93,12 @@ fn kind_of(scene: &GestureScene<'_>, id: &str) -> Option<&'static str> {
 }
 
 /// Refuses a thing that does no action of this name, which do `what`.
-fn check_who(scene: &GestureScene<'_>, who: &str, action: &str, what: &str) -> Result<(), GestureRefusal> {
+pub(super) fn check_who(
+    scene: &GestureScene<'_>,
+    who: &str,
+    action: &str,
+    what: &str,
+) -> Result<(), GestureRefusal> {
     let kinds = table::element(action).map_or(&[][..], |row| row.who);
     match kind_of(scene, who) {
         Some(kind) if kinds.contains(&kind) => Ok(()),
@@ -136,7 +142,20 @@ fn add_action(
         let begin = time_text(readable(at - base, scene.script.rate()), scene.script.rate(), "");
         action = action.with("begin", begin);
     }
-    ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &action))?.finish()
+    let draft = ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &action))?;
+    mixed(scene, draft, &ActionOrigins::same(scene).with_new(place_index(scene, place)), Some(who))?.finish()
+}
+
+/// Returns the position among the actions of a new one at a place.
+pub(super) fn place_index(scene: &GestureScene<'_>, place: ElementPlace) -> usize {
+    let (ElementPlace::First(near) | ElementPlace::After(near)) = place;
+    let near = scene.script.actions().iter().position(|other| other.element == near);
+    match (near, place) {
+        (Some(near), ElementPlace::First(_)) => near + 1,
+        (Some(near), ElementPlace::After(_)) => with_children(scene.script, near).end,
+        // After the cast.
+        (None, _) => 1,
+    }
 }
 
 /// Attaches a thing to another one, or to a bone of it such as `anna.RightHand`, from `at` on.
@@ -172,7 +191,7 @@ pub fn attach_thing(
 }
 
 /// Returns the place after the action `near`, or after the `seq` around it, in a `par`; at the end of the script without one.
-fn place_in_par(scene: &GestureScene<'_>, near: Option<usize>) -> ActionPlace {
+pub(super) fn place_in_par(scene: &GestureScene<'_>, near: Option<usize>) -> ActionPlace {
     let actions = scene.script.actions();
     let last = actions[0].children.last().copied();
     // A scene whose actions are all in one `par` gets new ones in there.

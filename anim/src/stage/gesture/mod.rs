@@ -8,6 +8,9 @@
 //! is always a script that can be read and whose times do not depend on themselves. Several things at once are changed by
 //! [`place_splices`] and [`face_splices`], whose results [`spliced_text`] applies and checks together.
 //!
+//! Where a gesture makes a clip overlap the one before it in its lane, the `fade-in` of the later one is as long as the overlap, as in other
+//! timelines; it follows the overlap unless it was given another length.
+//!
 //! | gesture | what it changes |
 //! |---|---|
 //! | [`move_clip`] | `begin`; in a `seq` the order, where the middle of the clip passes that of a neighbor |
@@ -15,6 +18,9 @@
 //! | [`trim_end`] | `to` of a take, `repeat` beyond its end, otherwise `dur` or `end` |
 //! | [`set_fade`], [`set_speed`], [`set_repeat`] | the attribute; removed where it is the default |
 //! | [`delete_clip`], [`duplicate_clip`] | one element |
+//! | [`move_clips`], [`delete_clips`] | the same for several actions |
+//! | [`move_to_lane`] | `who` and `begin`, and the place in the text |
+//! | [`copied_clips`], [`paste_clips`] | new elements, one for each that was copied |
 //! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`] | one new element |
 //! | [`move_path_point`] | three numbers of `points` |
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
@@ -25,21 +31,28 @@
 
 mod attributes;
 mod begin;
+mod copying;
 mod draft;
 mod insert;
+mod mixes;
 mod moving;
+mod other_lane;
 mod path_points;
 mod places;
 mod removal;
 mod scene;
+mod several;
 mod trim;
 
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
+pub use copying::{copied_clips, duplicate_clips, is_copied_clips, paste_clips};
 pub use draft::spliced_text;
 pub use insert::{add_clip, attach_thing, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
+pub use other_lane::{move_clips_to_lane, move_to_lane};
 pub use path_points::{move_path_point, written_points};
 pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene, in_this_text};
+pub use several::{delete_clips, move_clips};
 pub use trim::{trim_end, trim_start};

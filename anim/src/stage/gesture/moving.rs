@@ -2,6 +2,8 @@
 
 use super::begin::{ends_with_another, following_end, is_usual, kept_follower, moved_moment};
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
+use super::insert::place_index;
+use super::mixes::{ActionOrigins, mixed, with_children};
 use super::scene::{Followers, GestureRefusal, GestureScene};
 use crate::stage::script::ActionMoment;
 use crate::stage::splice::{AttachedComments, ElementPlace, move_to};
@@ -16,7 +18,8 @@ pub enum SequenceOrder {
     Keep,
 }
 
-/// Moves an action so that it begins at `to`; at zero for an earlier time.
+/// Moves an action so that it begins at `to`; at zero for an earlier time. Where a clip overlaps the one before it after that, it mixes with it
+/// for as long as they overlap.
 ///
 /// # Errors
 ///
@@ -54,10 +57,11 @@ pub fn move_clip(
             scene.script,
             [Some(action), scene.script.next_sibling(action), behind].into_iter().flatten(),
         )?;
-        return draft
-            .with(&changes)?
-            .then(|tree| move_to(tree, own.element, place, AttachedComments::Follow))?
-            .finish();
+        let draft =
+            draft.with(&changes)?.then(|tree| move_to(tree, own.element, place, AttachedComments::Follow))?;
+        let origins =
+            ActionOrigins::moved(scene, with_children(scene.script, action), new_index(scene, action, place));
+        return mixed(scene, draft, &origins, scene.lane(action))?.finish();
     }
     let by = to.max(StageTime::ZERO) - times.begin;
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
@@ -70,7 +74,14 @@ pub fn move_clip(
             changes.extend(kept_follower(scene, action, begin.by));
         }
     }
-    draft.with(&changes)?.finish_with(&scene.lengths(), |changed| scene.keeps_length(action, changed, action))
+    let draft = mixed(scene, draft.with(&changes)?, &ActionOrigins::same(scene), scene.lane(action))?;
+    draft.finish_with(&scene.lengths(), |changed| scene.keeps_length(action, changed, action))
+}
+
+/// Returns the position among the actions that an action has after it went to a place.
+pub(super) fn new_index(scene: &GestureScene<'_>, action: usize, place: ElementPlace) -> usize {
+    let (own, after) = (with_children(scene.script, action), place_index(scene, place));
+    if after > own.start { after.saturating_sub(own.len()) } else { after }
 }
 
 /// Returns the place in a `seq` where an action that begins at `to` belongs; `None` where that is its own.

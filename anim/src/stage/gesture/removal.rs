@@ -1,6 +1,6 @@
 //! Clips deleted and duplicated.
 
-use super::begin::{ends_with_another, is_usual, kept_follower, moved_moment, written_out};
+use super::begin::{ends_with_another, is_usual, kept_follower, moved_moment, usual_begin, written_out};
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
 use crate::stage::splice::{AttachedComments, delete, duplicate, named};
@@ -18,7 +18,7 @@ pub fn delete_clip(
 ) -> Result<String, GestureRefusal> {
     scene.element(action)?;
     let (own, times) = (&scene.script.actions()[action], scene.times(action));
-    if let Some(user) = user_of(scene, own.element) {
+    if let Some(user) = user_of(scene, &[own.element]) {
         return refused(format!("{user} depends on it: change that first"));
     }
     keeps_prev(scene.script, scene.script.next_sibling(action))?;
@@ -30,18 +30,13 @@ pub fn delete_clip(
     draft.then(|tree| delete(tree, own.element, AttachedComments::Stay))?.finish()
 }
 
-/// Returns the time at which an action begins without a `begin`.
-fn usual_begin(scene: &GestureScene<'_>, action: usize) -> StageTime {
-    let parent = || scene.times(scene.script.actions()[action].parent.unwrap_or(0)).begin;
-    scene.script.before_in_seq(action).map_or_else(parent, |before| scene.times(before).end)
-}
-
-/// Returns the title of an element that refers to an id inside `element` from outside of it.
-fn user_of(scene: &GestureScene<'_>, element: usize) -> Option<String> {
+/// Returns the title of an element that refers to an id inside one of `elements` from outside of all of them.
+pub(super) fn user_of(scene: &GestureScene<'_>, elements: &[usize]) -> Option<String> {
     let tree = scene.script.tree();
-    let range = tree.elements().get(element)?.range.clone();
+    let ranges = || elements.iter().filter_map(|&element| Some(&tree.elements().get(element)?.range));
     let is_inside = |other: usize| {
-        tree.elements()[other].range.start >= range.start && tree.elements()[other].range.end <= range.end
+        let other = &tree.elements()[other].range;
+        ranges().any(|range| other.start >= range.start && other.end <= range.end)
     };
     let ids: Vec<&str> = (0..tree.elements().len())
         .filter(|&other| is_inside(other))

@@ -2,6 +2,7 @@
 
 use super::begin::{MovedMoment, kept_follower, moved_moment};
 use super::draft::{AttributeChange, ScriptDraft};
+use super::mixes::{ActionOrigins, mixed};
 use super::scene::{Followers, GestureRefusal, GestureScene, NO_LENGTH, SHORTEST, refused};
 use crate::stage::script::{ScriptElement, StageRepeat};
 use crate::stage::time::{Decimal, StageTime, TICKS_PER_SECOND};
@@ -12,7 +13,8 @@ const NEAR_END: StageTime = StageTime::from_ticks(TICKS_PER_SECOND / 10_000);
 
 /// Moves the start of an action to `to`, with its end where it is.
 ///
-/// A take loses its start, or gets more of it; one that plays backwards loses its end. What plays more than
+/// A take loses its start, or gets more of it; one that plays backwards loses its end. It mixes with the clip before it for as long as they
+/// overlap. What plays more than
 /// once has no single start to trim, and a sound without an end plays from its own start.
 ///
 /// # Errors
@@ -48,7 +50,8 @@ pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Res
             changes.push((own.element, "dur", Some(text(scene, element, "dur", length))));
         }
     }
-    ScriptDraft::of(scene.script).with(&changes)?.finish()
+    let draft = ScriptDraft::of(scene.script).with(&changes)?;
+    mixed(scene, draft, &ActionOrigins::same(scene), scene.lane(action))?.finish()
 }
 
 /// Returns the change of the part of a take whose play begins `by` later.
@@ -79,7 +82,7 @@ fn trimmed_take(
 /// Moves the end of an action to `to`.
 ///
 /// A take ends earlier, or later up to its own end; beyond that it repeats. An `end` stays one and keeps its reference; everything else
-/// gets a `dur`.
+/// gets a `dur`. The clip after it mixes with it for as long as they overlap.
 ///
 /// # Errors
 ///
@@ -115,7 +118,8 @@ pub fn trim_end(
     if followers == Followers::Stay {
         changes.extend(kept_follower(scene, action, by));
     }
-    ScriptDraft::of(scene.script).with(&changes)?.finish()
+    let draft = ScriptDraft::of(scene.script).with(&changes)?;
+    mixed(scene, draft, &ActionOrigins::same(scene), scene.lane(action))?.finish()
 }
 
 /// Returns the change with which a play lasts for `length`, and how long it then lasts.

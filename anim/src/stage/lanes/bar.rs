@@ -1,5 +1,6 @@
 //! A bar of the timeline: an action with its times and its name.
 
+use super::overlap::{Takeover, is_main};
 use crate::stage::StagePlan;
 use crate::stage::script::{ScriptElement, StageRepeat, StageScript};
 use crate::stage::time::{Decimal, StageTime};
@@ -34,8 +35,10 @@ pub struct SceneBar {
     pub fade_in: StageTime,
     /// Duration of its fade at the end.
     pub fade_out: StageTime,
-    /// Whether it decides over the whole body: the main row of a lane. Two of these that overlap are a cross-fade.
+    /// Whether it decides over the whole body: the main row of a lane.
     pub is_main: bool,
+    /// How it takes over from the one before it.
+    pub takeover: Takeover,
     /// Whether it has no length of its own.
     pub is_passive: bool,
     /// The included file that has the action, relative to the folder of the document: it cannot be changed here. `None`: the script itself.
@@ -52,13 +55,13 @@ impl SceneBar {
         script: &StageScript,
         plan: &StagePlan,
         action: usize,
+        takeover: Takeover,
         sound_stop: Option<StageTime>,
     ) -> Self {
         let (own, element) = (&script.actions()[action], script.element(action));
         let times = plan.schedule().times()[action];
         let time = |name: &str| script.time(element, name).unwrap_or_default();
         let kind = element.row.name;
-        let is_layered = element.value("layer").is_some() || element.value("bones").is_some();
         Self {
             action,
             kind,
@@ -70,7 +73,8 @@ impl SceneBar {
             repeat: own.repeat,
             fade_in: time(if kind == "shot" { "blend" } else { "fade-in" }),
             fade_out: time("fade-out"),
-            is_main: matches!(kind, "shot" | "move" | "run") || (kind == "play" && !is_layered),
+            is_main: is_main(element),
+            takeover,
             is_passive: own.passive,
             file: script.tree().file_of(element).map(Into::into),
             marks: marks(script, action, times.begin, times.once),

@@ -2,16 +2,19 @@
 //!
 //! ```text
 //! Shots    │ wide        │ close  │ wide        │
-//! anna     │ Walk            ╳ PickUp │ Slash  │      row 0: what moves the whole body; overlaps are cross-fades
+//! anna     │ Walk            ╳ PickUp │ Slash  │      row 0: what moves the whole body; a cross is a mix
 //!          │                      │ look at ben │      row 1 and below: everything else, in the first row that is free
 //! Sounds   │        │ thunder.ogg │
 //! Scripts  │ intro.xml   │                             included; its actions are on the lanes above, and cannot be changed there
 //! ```
 
 mod bar;
+mod overlap;
 mod rows;
 
 pub use bar::{BarMark, SceneBar};
+pub use overlap::Takeover;
+pub(in crate::stage) use overlap::{is_same, overlaps};
 
 use super::StagePlan;
 use super::script::StageScript;
@@ -78,12 +81,14 @@ impl SceneLanes {
         let mut end = plan.length();
         let stops: HashMap<usize, StageTime> =
             plan.sounds().iter().map(|sound| (sound.action(), sound.stop())).collect();
+        let takeovers = overlap::takeovers(script, plan.schedule().times());
         for action in 1..script.actions().len().min(plan.schedule().times().len()) {
             let element = script.element(action);
             if element.row.group != ElementGroup::Action || element.row.name == "wait" {
                 continue;
             }
-            let bar = SceneBar::new(script, plan, action, stops.get(&action).copied());
+            let takeover = takeovers.get(&action).copied().unwrap_or(Takeover::After);
+            let bar = SceneBar::new(script, plan, action, takeover, stops.get(&action).copied());
             if !script.actions()[action].passive {
                 end = end.max(bar.end);
             }

@@ -56,6 +56,21 @@ pub fn insert(tree: &ScriptTree, place: ElementPlace, new: &NewElement) -> Optio
     Some(TextSplices::of(vec![block(tree, place, &new.text(), "")?]))
 }
 
+/// Inserts an element that is written as `content`, whose lines are not indented.
+///
+/// `None` where there is no such place.
+pub fn insert_text(tree: &ScriptTree, place: ElementPlace, content: &str) -> Option<TextSplices> {
+    Some(TextSplices::of(vec![block(tree, place, content, "")?]))
+}
+
+/// Returns an element as it is written, with everything in it, without the indentation of its lines. `None` where there is no such element in
+/// the text.
+pub fn written_element(tree: &ScriptTree, element: usize) -> Option<String> {
+    let own = tree.elements().get(element).filter(|element| element.is_own())?;
+    let old = indentation(tree.text(), own.range.start).unwrap_or_default();
+    Some(super::layout::indented(tree.text().get(own.range.clone())?, old, ""))
+}
+
 /// Inserts a text of one element, whose lines have the indentation `old` from the second one on.
 pub(super) fn block(tree: &ScriptTree, place: ElementPlace, content: &str, old: &str) -> Option<TextSplice> {
     let text = tree.text();

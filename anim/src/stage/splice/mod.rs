@@ -24,7 +24,7 @@ mod tag;
 
 pub use attribute::{remove_attribute, set_attribute};
 pub use element::{AttachedComments, delete, duplicate, move_to};
-pub use insert::{ElementPlace, NewElement, insert};
+pub use insert::{ElementPlace, NewElement, insert, insert_text, written_element};
 pub(in crate::stage) use names::named;
 pub use names::{is_used, rename, unique_id};
 

@@ -3,7 +3,7 @@
 use super::kind::EditKind;
 use super::map_references::MapReferences;
 use super::reference_map::ReferenceMap;
-use super::script_labels::SCRIPT_LABELS;
+use super::script_label::ScriptLabel;
 use super::text_ref::TextRef;
 use super::{Arbitrary, EditedBones, Example, Misfit, TakeRef};
 use crate::adapter::op::Op;
@@ -57,20 +57,26 @@ pub struct ScriptSplice {
 
 impl EditScript {
     /// Returns the edit that makes `splices` in `text`, which is the present text.
-    pub fn of(text: &str, splices: &TextSplices, label: &str) -> Self {
+    pub fn of(text: &str, splices: &TextSplices, label: ScriptLabel) -> Self {
+        Self { label: Some(label.text().to_owned()), ..Self::unnamed(text, splices) }
+    }
+
+    /// Returns the edit that makes `splices` in `text`, without a name of its own.
+    fn unnamed(text: &str, splices: &TextSplices) -> Self {
         let splice = |splice: &TextSplice| ScriptSplice {
             at: splice.range.start,
             old: text.get(splice.range.clone()).unwrap_or_default().to_owned(),
             new: splice.text.clone(),
         };
         let splices = splices.list().iter().map(splice).collect();
-        Self { text: None, create: false, splices, label: Some(label.to_owned()), also: Vec::new() }
+        Self { text: None, create: false, splices, label: None, also: Vec::new() }
     }
 
     /// Returns the edit that leads from `old` to `new` by replacing one part, the shortest; `None` where they are the same.
-    pub fn between(old: &str, new: &str, label: Option<&str>) -> Option<Self> {
+    pub fn between(old: &str, new: &str, label: Option<ScriptLabel>) -> Option<Self> {
         let splices = TextSplices::new(vec![TextSplice::between(old, new)?])?;
-        Some(Self { label: label.map(str::to_owned), ..Self::of(old, &splices, "") })
+        let label = label.map(|label| label.text().to_owned());
+        Some(Self { label, ..Self::unnamed(old, &splices) })
     }
 
     /// Returns the edit as edits of one text each, in their order.
@@ -156,8 +162,7 @@ impl EditKind for EditScript {
     };
 
     fn label(&self) -> &'static str {
-        let own = self.label.as_deref();
-        SCRIPT_LABELS.iter().find(|label| Some(**label) == own).copied().unwrap_or("Edit script")
+        self.label.as_deref().and_then(ScriptLabel::of).unwrap_or(ScriptLabel::EditScript).text()
     }
 
     fn take(&self) -> Option<&TakeRef> {
@@ -186,7 +191,7 @@ impl EditKind for EditScript {
 
     fn detail(&self, adapter: &ModelAdapter) -> Option<String> {
         // A label of another version of the program is still shown.
-        let own = self.label.as_deref().filter(|own| !SCRIPT_LABELS.contains(own));
+        let own = self.label.as_deref().filter(|own| ScriptLabel::of(own).is_none());
         let texts = adapter.texts().list();
         let file = adapter.texts().find(self.text.as_ref()).ok().filter(|_| texts.len() > 1);
         let file = file.and_then(|index| texts.get(index)).map(|file| &*file.name);

@@ -66,6 +66,9 @@ fn values_of_keys(workspace: &Workspace) -> CopiedValues {
 
 /// Pastes the pose, or the keys, in a text of the clipboard; any other text is refused with a message.
 pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Option<Effect> {
+    if workspace.read().scene().is_some() {
+        return super::scene_clipboard::paste(workspace, text);
+    }
     if let Some(poses) = posing::clipboard::from_text(text) {
         return pose::paste(workspace, poses, mirrored);
     }

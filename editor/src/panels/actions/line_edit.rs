@@ -6,7 +6,7 @@ use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use dragonfly_document::SceneView;
 use dragonfly_document::adapter::TextFile;
-use dragonfly_document::edit::{EditScript, ScriptSplice, TextRef};
+use dragonfly_document::edit::{EditScript, ScriptLabel, ScriptSplice, TextRef};
 use dragonfly_document::text::sentence;
 use glam::DVec3;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ const REFUSED: &str = "The line cannot be written";
 /// The reason why there is none.
 pub(super) fn lines_edit(
     scene: &SceneView,
-    label: &str,
+    label: ScriptLabel,
     change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
 ) -> Result<EditScript, String> {
     lines_edit_of(scene, label, None, change)
@@ -34,7 +34,7 @@ pub(super) fn lines_edit(
 /// Does the same as [`lines_edit`] where another edit gives the paths along the line `renamed` its new name.
 pub(super) fn lines_edit_of(
     scene: &SceneView,
-    label: &str,
+    label: ScriptLabel,
     renamed: Option<&str>,
     change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
 ) -> Result<EditScript, String> {
@@ -69,7 +69,7 @@ pub(super) fn lines_edit_of(
         text: Some(TextRef::Name(name)),
         create: true,
         splices: vec![ScriptSplice { at: 0, old: String::new(), new: text }],
-        label: Some(label.to_owned()),
+        label: Some(label.text().to_owned()),
         also: vec![edit_of(main, &splices, label)],
     })
 }
@@ -82,7 +82,7 @@ pub(super) fn lines_edit_of(
 /// The reason why there is none.
 pub(super) fn reshaped_edit(
     scene: &SceneView,
-    label: &str,
+    label: ScriptLabel,
     line: &str,
     reshape: impl FnOnce(&DrawnLine) -> Option<Vec<DVec3>>,
 ) -> Result<EditScript, String> {
@@ -125,7 +125,7 @@ fn lines_file<'a>(
     Ok(Some((file, lines)))
 }
 
-fn edit_of(file: &TextFile, splices: &TextSplices, label: &str) -> EditScript {
+fn edit_of(file: &TextFile, splices: &TextSplices, label: ScriptLabel) -> EditScript {
     let edit = EditScript::of(&file.text, splices, label);
     EditScript { text: Some(TextRef::Name(file.name.to_string())), ..edit }
 }

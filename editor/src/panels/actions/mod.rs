@@ -31,6 +31,7 @@ pub(super) mod pose_line;
 mod reopened;
 pub(super) mod scene;
 pub(super) mod scene_camera;
+pub(super) mod scene_clipboard;
 pub(super) mod scene_clips;
 pub(super) mod scene_gizmo;
 pub(super) mod scene_ground;

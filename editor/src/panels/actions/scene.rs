@@ -37,6 +37,7 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
             }
         }
         SceneRequest::SelectAction(action) => workspace.scene.select_action(action),
+        SceneRequest::SelectActions(actions, choice) => workspace.scene.select_actions(&actions, choice),
         SceneRequest::Cursor(at) => workspace.scene.select_at(at),
         SceneRequest::Hide(things, hide) => workspace.scene.hide(things, hide),
         SceneRequest::Lock(things, lock) => workspace.scene.lock(things, lock),

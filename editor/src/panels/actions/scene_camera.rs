@@ -10,6 +10,7 @@ use dragonfly_anim::stage::StageCamera;
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_anim::stage::table::vector;
 use dragonfly_document::Change;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::{ThroughCamera, viewport_camera};
 use glam::Vec3;
@@ -153,7 +154,7 @@ fn moved_camera(
     let (eye, before) = (moved.eye(), moment.things.things[thing].transform.translation);
     let look = eye - moved.back() * distance_of_look(&base, id, before);
     let parts = vec![moment.placed(thing, eye, None)?, moment.looking(id, look)?];
-    spliced(workspace, &base, parts, "Move camera", gesture)
+    spliced(workspace, &base, parts, ScriptLabel::MoveCamera, gesture)
 }
 
 /// Returns the distance from a camera to the point that it looks at, meters; 3 where the script names a thing instead of a point.

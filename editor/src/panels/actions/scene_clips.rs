@@ -8,8 +8,8 @@ use crate::panels::scene::shots::shots_of;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clip, duplicate_clip, in_this_text, move_clip,
-    trim_end, trim_start,
+    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clips, duplicate_clips, in_this_text,
+    move_clips, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::script::ScriptTree;
@@ -17,68 +17,88 @@ use dragonfly_anim::stage::splice::{
     AttachedComments, TextSplices, delete as delete_element, duplicate as duplicate_element, is_used,
 };
 use dragonfly_anim::stage::table::ElementGroup;
+use dragonfly_anim::stage::time::StageTime;
+use dragonfly_document::edit::ScriptLabel;
 
 fn followers(workspace: &Workspace) -> Followers {
     if workspace.scene.ripple() { Followers::Follow } else { Followers::Stay }
 }
 
-/// Returns the selected action, unless its thing is locked.
-fn unlocked_action(workspace: &mut Workspace) -> Option<usize> {
-    let action = workspace.scene.action()?;
-    let lane = workspace.scene.lanes().bar_of(action).map(|(lane, _)| lane.name.clone());
-    match lane.filter(|lane| workspace.scene.is_locked(lane)) {
+/// Returns the selected actions, unless the thing of one of them is locked.
+pub(super) fn unlocked_actions(workspace: &mut Workspace) -> Option<Vec<usize>> {
+    let actions = workspace.scene.actions().to_vec();
+    let lane = |&action: &usize| workspace.scene.lanes().bar_of(action).map(|(lane, _)| lane.name.clone());
+    match actions.iter().filter_map(lane).find(|lane| workspace.scene.is_locked(lane)) {
         Some(lane) => {
             workspace.say(MessageSeverity::Info, format!("{lane} is locked"));
             None
         }
-        None => Some(action),
+        None => Some(actions).filter(|actions| !actions.is_empty()),
     }
 }
 
-/// Lets the selected action begin at the playhead.
+/// Returns the active action, unless the thing of a selected one is locked.
+fn unlocked_action(workspace: &mut Workspace) -> Option<usize> {
+    unlocked_actions(workspace)?.pop()
+}
+
+/// Returns the time at which the first of the actions begins.
+fn first_begin(base: &SceneBase, actions: &[usize]) -> StageTime {
+    let times = base.plan.schedule().times();
+    let begins = actions.iter().filter_map(|&action| times.get(action)).map(|times| times.begin);
+    begins.min().unwrap_or_default()
+}
+
+/// Returns the label of a step that moves actions.
+pub(in crate::panels) fn move_label(actions: &[usize]) -> ScriptLabel {
+    if actions.len() > 1 { ScriptLabel::MoveClips } else { ScriptLabel::MoveClip }
+}
+
+/// Lets the first of the selected actions begin at the playhead, the others as long after it as now.
 pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect> {
-    let (action, at, followers) =
-        (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, "Move clip", |base| {
-        move_clip(&base.scene(), action, at, SequenceOrder::Keep, followers)
+    let (actions, at, followers) =
+        (unlocked_actions(workspace)?, workspace.read().scene_time(), followers(workspace));
+    gesture(workspace, move_label(&actions), |base| {
+        let by = at - first_begin(base, &actions);
+        move_clips(&base.scene(), &actions, by, SequenceOrder::Keep, followers)
     })
 }
 
-/// Moves the selected action by frames.
+/// Moves the selected actions by frames.
 pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option<Effect> {
-    let (action, followers) = (unlocked_action(workspace)?, followers(workspace));
-    gesture(workspace, "Move clip", |base| {
+    let (actions, followers) = (unlocked_actions(workspace)?, followers(workspace));
+    gesture(workspace, move_label(&actions), |base| {
         let rate = base.script.rate();
-        let begin = base.plan.schedule().times().get(action).map(|times| times.begin).unwrap_or_default();
+        let begin = first_begin(base, &actions);
         let frame = rate.nearest_frame(begin);
         let at_frame = rate.frame(frame) == begin;
         // An action between two frames goes to one of them first.
         let to = if at_frame { rate.frame(frame + frames) } else { rate.frame(frame) };
-        move_clip(&base.scene(), action, to, SequenceOrder::Keep, followers)
+        move_clips(&base.scene(), &actions, to - begin, SequenceOrder::Keep, followers)
     })
 }
 
 /// Lets the selected action start at the playhead.
 pub(in crate::panels) fn start_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at) = (unlocked_action(workspace)?, workspace.read().scene_time());
-    gesture(workspace, "Trim start", |base| trim_start(&base.scene(), action, at))
+    gesture(workspace, ScriptLabel::TrimStart, |base| trim_start(&base.scene(), action, at))
 }
 
 /// Lets the selected action end at the playhead.
 pub(in crate::panels) fn end_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at, followers) =
         (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, "Trim end", |base| trim_end(&base.scene(), action, at, followers))
+    gesture(workspace, ScriptLabel::TrimEnd, |base| trim_end(&base.scene(), action, at, followers))
 }
 
-/// Duplicates the selected action, or the selected things.
+/// Duplicates the selected actions after the last of them ends, or the selected things.
 pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
     if workspace.scene.action().is_some() {
-        let action = unlocked_action(workspace)?;
-        return gesture(workspace, "Duplicate", |base| duplicate_clip(&base.scene(), action));
+        let actions = unlocked_actions(workspace)?;
+        return gesture(workspace, ScriptLabel::Duplicate, |base| duplicate_clips(&base.scene(), &actions));
     }
     let things = workspace.scene.things().to_vec();
-    gesture(workspace, "Duplicate", |base| {
+    gesture(workspace, ScriptLabel::Duplicate, |base| {
         each_thing(base, &things, |tree, element| Ok(duplicate_element(tree, element)))
     })
 }
@@ -86,9 +106,11 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
 /// Deletes the selected action, or the selected things. With `lift` what follows an action stays where it is.
 pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option<Effect> {
     if workspace.scene.action().is_some() {
-        let action = unlocked_action(workspace)?;
+        let actions = unlocked_actions(workspace)?;
         let followers = if lift { Followers::Stay } else { followers(workspace) };
-        return gesture(workspace, "Delete", |base| delete_clip(&base.scene(), action, followers));
+        return gesture(workspace, ScriptLabel::Delete, |base| {
+            delete_clips(&base.scene(), &actions, followers)
+        });
     }
     let things: Vec<Box<str>> =
         workspace.scene.things().iter().filter(|thing| !workspace.scene.is_locked(thing)).cloned().collect();
@@ -96,7 +118,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         workspace.say(MessageSeverity::Info, "What is selected is locked");
         return None;
     }
-    gesture(workspace, "Delete", |base| {
+    gesture(workspace, ScriptLabel::Delete, |base| {
         each_thing(base, &things, |tree, element| {
             let id = tree.elements()[element].value("id").unwrap_or_default();
             if is_used(tree, id) {
@@ -134,7 +156,7 @@ fn each_thing(
 /// Inserts a shot of the camera after the one that is seen at the playhead.
 pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
-    gesture(workspace, "Add shot", |base| {
+    gesture(workspace, ScriptLabel::AddShot, |base| {
         let cameras: Vec<&str> = base
             .plan
             .things()
@@ -158,7 +180,7 @@ pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect
 /// Inserts a shot of the selected camera.
 pub(in crate::panels) fn cut_to_selected(workspace: &mut Workspace) -> Option<Effect> {
     let (at, camera) = (workspace.read().scene_time(), workspace.scene.things().last()?.clone());
-    gesture(workspace, "Add shot", |base| cut_to(&base.scene(), &camera, at))
+    gesture(workspace, ScriptLabel::AddShot, |base| cut_to(&base.scene(), &camera, at))
 }
 
 /// Moves the playhead to the start of the next shot, or of the one before the playhead.

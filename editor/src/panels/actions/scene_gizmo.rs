@@ -15,6 +15,7 @@ use dragonfly_anim::stage::gesture::{
 use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::gizmo::{PosedSkeleton, Tool};
 use glam::{Mat4, Quat, Vec3};
@@ -140,9 +141,9 @@ fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefu
         moment.moved(thing, gizmo.tool, [now, before.to_parent], &mut parts)?;
     }
     let label = match gizmo.tool {
-        Tool::Move => "Move thing",
-        Tool::Rotate => "Turn thing",
-        Tool::Scale => "Scale thing",
+        Tool::Move => ScriptLabel::MoveThing,
+        Tool::Rotate => ScriptLabel::TurnThing,
+        Tool::Scale => ScriptLabel::ScaleThing,
     };
     spliced(workspace, &base, parts, label, gesture)
 }
@@ -179,7 +180,7 @@ pub(super) fn spliced(
     workspace: &mut Workspace,
     base: &SceneBase,
     parts: Vec<TextSplices>,
-    label: &'static str,
+    label: ScriptLabel,
     gesture: Gesture,
 ) -> Result<Option<ScriptChange>, GestureRefusal> {
     let splices = joined(parts)?;

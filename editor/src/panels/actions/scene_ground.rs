@@ -7,6 +7,7 @@ use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text};
 use dragonfly_document::SceneView;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_picture::PosedScene;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::{DVec3, Vec2};
@@ -32,7 +33,7 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
     let selected: Vec<Box<str>> = selected.collect();
     let things = selected.iter().filter_map(|id| scene.plan.as_ref()?.thing_called(id));
     let heights = heights_on_ground(&scene, things, time.seconds());
-    gesture(workspace, "Drop to the ground", |base| {
+    gesture(workspace, ScriptLabel::DropToGround, |base| {
         let mut state = base.plan.new_scene();
         base.plan.scene_at(time, &mut state);
         let things = selected.iter().filter_map(|id| base.plan.thing_called(id));

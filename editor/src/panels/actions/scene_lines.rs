@@ -12,7 +12,7 @@ use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, points_text};
 use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::{PlannedThing, StageTake};
-use dragonfly_document::edit::{Edit, EditScript};
+use dragonfly_document::edit::{Edit, EditScript, ScriptLabel};
 use dragonfly_document::{Change, SceneView, paths_of_renamed_line};
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
@@ -76,11 +76,13 @@ pub(super) fn perform(workspace: &mut Workspace, request: LineRequest) -> Option
             if attribute == "id" {
                 return rename(workspace, &line, value.as_deref());
             }
-            change_line(workspace, "Change value", &line, |lines, at| {
+            change_line(workspace, ScriptLabel::ChangeValue, &line, |lines, at| {
                 lines.set(at, attribute, value.as_deref())
             })
         }
-        LineRequest::Delete(line) => change_line(workspace, "Erase line", &line, DrawnLines::removed),
+        LineRequest::Delete(line) => {
+            change_line(workspace, ScriptLabel::EraseLine, &line, DrawnLines::removed)
+        }
         LineRequest::UseAsPath(line) => {
             workspace.scene.lines_mut().select(Some(line));
             use_as_path(workspace)
@@ -108,7 +110,7 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
         LineSurface::View => vec![("on".to_owned(), "view".to_owned())],
     };
     let line = NewLine { id: Some(id.clone()), points: stroke.control.clone(), attributes };
-    let effect = edit_lines(workspace, &scene, "Draw line", |lines| lines.added(&line));
+    let effect = edit_lines(workspace, &scene, ScriptLabel::DrawLine, |lines| lines.added(&line));
     if effect.is_some() {
         workspace.scene.lines_mut().select(Some(id.into()));
     }
@@ -148,7 +150,7 @@ fn erase(workspace: &mut Workspace) -> Option<Effect> {
         workspace.say(MessageSeverity::Info, "The lines have changed meanwhile: try again");
         return None;
     }
-    edit_lines(workspace, &scene, "Erase line", |lines| {
+    edit_lines(workspace, &scene, ScriptLabel::EraseLine, |lines| {
         let all: Option<Vec<TextSplices>> = found.iter().map(|&at| lines.removed(at)).collect();
         TextSplices::joined(all?)
     })
@@ -157,7 +159,7 @@ fn erase(workspace: &mut Workspace) -> Option<Effect> {
 /// Changes the line with this name.
 fn change_line(
     workspace: &mut Workspace,
-    label: &str,
+    label: ScriptLabel,
     name: &str,
     change: impl FnOnce(&DrawnLines, usize) -> Option<TextSplices>,
 ) -> Option<Effect> {
@@ -167,7 +169,7 @@ fn change_line(
 
 /// Gives a line another name, and the paths that follow it too.
 fn rename(workspace: &mut Workspace, old: &str, new: Option<&str>) -> Option<Effect> {
-    const LABEL: &str = "Rename";
+    const LABEL: ScriptLabel = ScriptLabel::Rename;
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
     // Without a name it cannot be followed.
     let renamed = new.map(|_| old);
@@ -200,7 +202,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
 fn edit_lines(
     workspace: &mut Workspace,
     scene: &SceneView,
-    label: &str,
+    label: ScriptLabel,
     change: impl FnOnce(&DrawnLines) -> Option<TextSplices>,
 ) -> Option<Effect> {
     match lines_edit(scene, label, change) {
@@ -237,7 +239,7 @@ pub(in crate::panels) fn use_as_path(workspace: &mut Workspace) -> Option<Effect
 pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
     let selected = workspace.scene.things().to_vec();
-    gesture(workspace, "Add clip", |base| {
+    gesture(workspace, ScriptLabel::AddClip, |base| {
         let found =
             selected.iter().rev().filter_map(|id| base.plan.things().get(base.plan.thing_called(id)?));
         let things: Vec<&PlannedThing> = found.collect();

@@ -12,7 +12,7 @@ use dragonfly_anim::stage::gesture::{GestureRefusal, move_path_point};
 use dragonfly_anim::stage::line::DrawnLine;
 use dragonfly_document::Change;
 use dragonfly_document::SceneView;
-use dragonfly_document::edit::{Edit, EditScript};
+use dragonfly_document::edit::{Edit, EditScript, ScriptLabel};
 use dragonfly_document::history::Gesture;
 use glam::DVec3;
 use std::sync::Arc;
@@ -51,7 +51,12 @@ fn path_change(
     let scene = open_scene(workspace)?;
     let base = gesture_base(workspace, &scene)?;
     let text = move_path_point(&base.script, path, point.index, point.place)?;
-    Ok(ScriptChange { from: Arc::clone(base.text()), text, label: "Move point", gesture: Some(gesture) })
+    Ok(ScriptChange {
+        from: Arc::clone(base.text()),
+        text,
+        label: ScriptLabel::MovePoint,
+        gesture: Some(gesture),
+    })
 }
 
 /// Returns the edit of the file of lines as it was when the drag began.
@@ -64,7 +69,7 @@ fn line_edit(workspace: &mut Workspace, line: &str, point: &PathPoint) -> Result
             scene
         }
     };
-    reshaped_edit(&scene, "Move point", line, |line| moved(line, point)).map_err(GestureRefusal)
+    reshaped_edit(&scene, ScriptLabel::MovePoint, line, |line| moved(line, point)).map_err(GestureRefusal)
 }
 
 fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, GestureRefusal> {

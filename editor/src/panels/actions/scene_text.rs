@@ -6,6 +6,7 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_document::Change;
+use dragonfly_document::edit::ScriptLabel;
 use std::sync::Arc;
 
 /// Sends a new text of the script.
@@ -28,7 +29,7 @@ pub(super) fn text_change(workspace: &mut Workspace, change: &ScriptChange) -> O
 /// Makes a gesture on the scene as it is now a step of the history.
 pub(super) fn gesture(
     workspace: &mut Workspace,
-    label: &'static str,
+    label: ScriptLabel,
     act: impl FnOnce(&SceneBase) -> Result<String, GestureRefusal>,
 ) -> Option<Effect> {
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
@@ -51,9 +52,9 @@ pub(in crate::panels) fn add(workspace: &mut Workspace, thing: &NewThing) -> Opt
 pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing], sounds: &[String]) -> Option<Effect> {
     let label = match (things, sounds) {
         ([], []) => return None,
-        ([], _) => "Add sound",
+        ([], _) => ScriptLabel::AddSound,
         ([thing, ..], []) => thing.label(),
-        _ => "Add files",
+        _ => ScriptLabel::AddFiles,
     };
     let at = workspace.read().scene_time();
     let mut added = Vec::new();

@@ -7,6 +7,12 @@ use super::id::Id;
 const COUNTERPARTS: &[(Id, Id)] = &[
     (Id::DeleteKeys, Id::SceneDelete),
     (Id::DuplicateKeys, Id::SceneDuplicate),
+    (Id::SelectAllKeys, Id::SelectAllActions),
+    (Id::SelectAll, Id::SelectAllActions),
+    (Id::Copy, Id::CopyActions),
+    (Id::CopyKeys, Id::CopyActions),
+    (Id::CutKeys, Id::CutActions),
+    (Id::PastePose, Id::PasteActions),
     (Id::RenameTake, Id::SceneRename),
     (Id::KeysEarlier, Id::ClipEarlier),
     (Id::KeysLater, Id::ClipLater),

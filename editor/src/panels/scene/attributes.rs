@@ -12,6 +12,7 @@ use dragonfly_anim::stage::gesture::{GestureRefusal, in_this_text};
 use dragonfly_anim::stage::script::{ElementOrigin, ScriptElement, StageScript};
 use dragonfly_anim::stage::splice::{remove_attribute, rename, set_attribute};
 use dragonfly_anim::stage::table::AttributeRow;
+use dragonfly_document::edit::ScriptLabel;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 use std::sync::Arc;
 
@@ -194,7 +195,7 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         Ok(SceneRequest::Text(ScriptChange {
             from: Arc::clone(tree.text()),
             text,
-            label: "Change value",
+            label: ScriptLabel::ChangeValue,
             gesture: None,
         }))
     };

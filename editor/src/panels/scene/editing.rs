@@ -1,6 +1,6 @@
 //! The scene as it is edited: what is selected, hidden and locked, its lanes, and the newest text.
 
-use super::follow::follow_action;
+use super::action_selection::ActionSelection;
 use super::line_editing::{LineEditing, MarkedThings};
 use super::request::ScriptChange;
 use super::sounds::SceneSounds;
@@ -21,8 +21,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct SceneEditing {
     things: ThingSelection,
-    /// The selected action of the script that is shown.
-    action: Option<usize>,
+    /// The selected actions of the script that is shown.
+    actions: ActionSelection,
     hidden: BTreeSet<Box<str>>,
     locked: BTreeSet<Box<str>>,
     renaming: Option<Box<str>>,
@@ -58,7 +58,7 @@ impl Default for SceneEditing {
     fn default() -> Self {
         Self {
             things: ThingSelection::default(),
-            action: None,
+            actions: ActionSelection::default(),
             hidden: BTreeSet::new(),
             locked: BTreeSet::new(),
             renaming: None,
@@ -95,9 +95,14 @@ impl SceneEditing {
         self.things.contains(thing)
     }
 
-    /// Returns the selected action.
+    /// Returns the active action: the one that was selected last.
     pub fn action(&self) -> Option<usize> {
-        self.action
+        self.actions.list().last().copied()
+    }
+
+    /// Returns the selected actions, the active one last.
+    pub fn actions(&self) -> &[usize] {
+        self.actions.list()
     }
 
     /// Returns whether a thing is hidden.
@@ -185,9 +190,15 @@ impl SceneEditing {
 
     /// Selects an action and the thing that acts.
     pub(in crate::panels) fn select_action(&mut self, action: Option<usize>) {
-        self.action = action;
+        self.select_actions(action.as_slice(), Choice::Replace);
+    }
+
+    /// Replaces, adds or toggles actions, and selects the thing that does the last one.
+    pub(in crate::panels) fn select_actions(&mut self, actions: &[usize], choice: Choice) {
+        self.actions.choose(actions, choice);
         let Some((script, _)) = &self.shown else { return };
-        let element = action.and_then(|action| script.actions().get(action).map(|_| script.element(action)));
+        let active = self.action().filter(|&action| action < script.actions().len());
+        let element = active.map(|action| script.element(action));
         if let Some(who) = element.and_then(|element| element.value("who")) {
             self.things.replace(vec![who.into()]);
         }
@@ -204,7 +215,7 @@ impl SceneEditing {
             }
             let own = &tree.elements()[element];
             if let Some(id) = own.value("id").filter(|id| script.thing_called(id).is_some()) {
-                self.action = None;
+                self.actions = ActionSelection::default();
                 self.things.replace(vec![id.into()]);
                 return;
             }
@@ -270,12 +281,12 @@ impl SceneEditing {
             return;
         }
         if let Some((old, _)) = self.shown.as_ref().filter(|(old, _)| !Arc::ptr_eq(old, &script)) {
-            self.action = self.action.and_then(|action| follow_action(old, action, &script));
+            self.actions.follow(old, &script);
             self.things.retain(|id| script.thing_called(id).is_some());
         }
         if !self.awaited.is_empty() && self.awaited.iter().all(|id| script.thing_called(id).is_some()) {
             self.things.replace(std::mem::take(&mut self.awaited));
-            self.action = None;
+            self.actions = ActionSelection::default();
         }
         self.lanes = Arc::new(SceneLanes::new(&script, &plan));
         self.shown = Some((script, plan));

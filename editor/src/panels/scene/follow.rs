@@ -26,7 +26,17 @@ pub(super) fn follow_action(old: &StageScript, action: usize, new: &StageScript)
             return Some(action);
         }
     }
-    (1..new.actions().len()).filter(|&other| is_same(other)).min_by_key(|other| other.abs_diff(action))
+    let nearest = |is_wanted: &dyn Fn(usize) -> bool| {
+        (1..new.actions().len()).filter(|&other| is_wanted(other)).min_by_key(|other| other.abs_diff(action))
+    };
+    // Or it went to another thing.
+    let is_new = |other: usize| {
+        !old.actions().iter().enumerate().any(|(at, _)| is_alike(old.element(at), new.element(other)))
+    };
+    nearest(&is_same).or_else(|| {
+        nearest(&|other| new.element(other).row.name == element.row.name && is_new(other))
+            .filter(|_| same_count)
+    })
 }
 
 /// Returns the action of an included file that was a given one: at the same place after its `include`, if it is the same apart from its times.
@@ -40,7 +50,7 @@ fn follow_included(old: &StageScript, action: usize, new: &StageScript) -> Optio
 
 /// Returns whether two elements are the same apart from their times.
 fn is_alike(one: &ScriptElement, other: &ScriptElement) -> bool {
-    const TIMES: [&str; 3] = ["begin", "end", "dur"];
+    const TIMES: [&str; 4] = ["begin", "end", "dur", "fade-in"];
     let rest = |element: &ScriptElement| {
         let attributes = element.attributes.iter().filter(|attribute| !TIMES.contains(&attribute.row.name));
         attributes.map(|attribute| (attribute.row.name, attribute.value.clone())).collect::<Vec<_>>()

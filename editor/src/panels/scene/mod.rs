@@ -8,6 +8,7 @@
 //!
 //! The panels contain nothing of the scene: they draw the last script that worked, and a text of their own only while someone types.
 
+mod action_selection;
 pub mod attributes;
 mod base;
 mod editing;

@@ -4,6 +4,7 @@ use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_anim::stage::script::{ScriptElement, ScriptTree, StageScript};
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, unique_id};
 use dragonfly_anim::stage::time::{StageRate, StageTime, parse_time};
+use dragonfly_document::edit::ScriptLabel;
 
 /// A thing to add to the cast.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,16 +33,16 @@ pub enum NewThing {
 
 impl NewThing {
     /// Returns the label of the edit.
-    pub fn label(&self) -> &'static str {
+    pub fn label(&self) -> ScriptLabel {
         match self {
-            Self::Role(_) | Self::RoleAt(..) => "Add role",
-            Self::Prop(_) => "Add prop",
-            Self::Camera => "Add camera",
-            Self::Light => "Add light",
-            Self::Effect => "Add effect",
-            Self::Path | Self::LinePath(_) => "Add path",
-            Self::DrawnPath(..) => "Draw path",
-            Self::Mark => "Add mark",
+            Self::Role(_) | Self::RoleAt(..) => ScriptLabel::AddRole,
+            Self::Prop(_) => ScriptLabel::AddProp,
+            Self::Camera => ScriptLabel::AddCamera,
+            Self::Light => ScriptLabel::AddLight,
+            Self::Effect => ScriptLabel::AddEffect,
+            Self::Path | Self::LinePath(_) => ScriptLabel::AddPath,
+            Self::DrawnPath(..) => ScriptLabel::DrawPath,
+            Self::Mark => ScriptLabel::AddMark,
         }
     }
 

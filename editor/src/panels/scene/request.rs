@@ -2,6 +2,7 @@
 
 use crate::panels::keys::TimeWindow;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::ThroughCamera;
 use std::sync::Arc;
@@ -14,7 +15,7 @@ pub struct ScriptChange {
     /// The new text.
     pub text: String,
     /// Label of the step in the history.
-    pub label: &'static str,
+    pub label: ScriptLabel,
     /// The gesture that it belongs to.
     pub gesture: Option<Gesture>,
 }
@@ -45,6 +46,8 @@ pub enum SceneRequest {
     SelectThings(Vec<Box<str>>, Choice),
     /// Selects an action, or none.
     SelectAction(Option<usize>),
+    /// Selects actions: replaces, adds or toggles them.
+    SelectActions(Vec<usize>, Choice),
     /// The cursor of the script is at this byte: what is there is selected.
     Cursor(usize),
     /// Hides things, or shows them again.

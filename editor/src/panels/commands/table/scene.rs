@@ -1,7 +1,7 @@
 //! Scenes: things of the cast, actions of the timeline.
 
 use super::*;
-use crate::panels::actions::{scene, scene_clips, scene_ground, scene_lines, scene_text};
+use crate::panels::actions::{scene, scene_clipboard, scene_clips, scene_ground, scene_lines, scene_text};
 use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
 
@@ -26,16 +26,20 @@ commands! {
     CutToCamera => When::Thing, "Cut to this camera here", [], "Inserts a shot of the selected camera at the playhead", scene_clips::cut_to_selected;
     PreviousShot => When::Scene, "Go to previous shot", [], "Moves the playhead to the start of the shot before it", |w| { scene_clips::go_to_shot(w, false); None };
     NextShot => When::Scene, "Go to next shot", [], "Moves the playhead to the start of the next shot", |w| { scene_clips::go_to_shot(w, true); None };
-    ClipToPlayhead => When::Clip, "Move action to playhead", [], "Lets the selected action begin at the playhead", scene_clips::to_playhead;
-    ClipEarlier => When::Clip, "Move action a frame earlier", [], "Moves the selected action one frame back", |w| scene_clips::nudge(w, -1), repeats;
-    ClipLater => When::Clip, "Move action a frame later", [], "Moves the selected action one frame forward", |w| scene_clips::nudge(w, 1), repeats;
+    ClipToPlayhead => When::Clip, "Move action to playhead", [], "Lets the first selected action begin at the playhead; the others move along", scene_clips::to_playhead;
+    ClipEarlier => When::Clip, "Move action a frame earlier", [], "Moves the selected actions one frame back", |w| scene_clips::nudge(w, -1), repeats;
+    ClipLater => When::Clip, "Move action a frame later", [], "Moves the selected actions one frame forward", |w| scene_clips::nudge(w, 1), repeats;
     ClipStartToPlayhead => When::Clip, "Trim start to playhead", [], "Lets the selected action start at the playhead, with the rest of it where it is", scene_clips::start_to_playhead;
     ClipEndToPlayhead => When::Clip, "Trim end to playhead", [], "Lets the selected action end at the playhead", scene_clips::end_to_playhead;
     PreviousAction => When::Scene, "Select previous action", [], "Selects the action before the selected one in the script", |w| { scene_clips::step(w, false); None };
     NextAction => When::Scene, "Select next action", [], "Selects the action after the selected one in the script", |w| { scene_clips::step(w, true); None };
-    SceneDuplicate => When::SceneItem, "Duplicate action or thing", [], "Duplicates the selected action after itself, or the selected thing", scene_clips::duplicate;
-    SceneDelete => When::SceneItem, "Delete action or things", [], "Deletes the selected action, or the selected things; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
-    SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected action; what follows stays where it is", |w| scene_clips::delete(w, true);
+    SelectAllActions => When::Scene, "Select all actions", [], "Selects every action in the timeline", |w| { scene_clipboard::select_all(w); None };
+    CutActions => When::Clip, "Cut actions", [], "Copies the selected actions and deletes them", scene_clipboard::cut;
+    CopyActions => When::Clip, "Copy actions", [], "Copies the selected actions; Paste inserts them at the playhead, also for another role", scene_clipboard::copy;
+    PasteActions => When::Scene, "Paste actions", [], "Pastes the copied actions at the playhead: for the selected role or prop, or, while an action is selected, for the things they were copied from", |_| Some(Effect::PastePose { mirrored: false });
+    SceneDuplicate => When::SceneItem, "Duplicate action or thing", [], "Duplicates the selected actions after the last of them ends, or the selected thing", scene_clips::duplicate;
+    SceneDelete => When::SceneItem, "Delete action or things", [], "Deletes the selected actions, or the selected things; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
+    SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected actions; what follows stays where it is", |w| scene_clips::delete(w, true);
     ToggleSceneRipple => When::Always, "Ripple", [], "Lets what follows in a sequence move along with an action that is dragged; hold 2 for the other way", |w| { scene::toggle_ripple(w); None };
     EditSceneModel => When::Thing, "Edit takes and bones", [], "Opens the model of the selected thing, in place: its takes and bones", |w| { let thing = w.scene.things().last().cloned()?; scene::edit_model(w, &thing) };
     BackToScene => When::Always, "Back to scene", [], "Shows the scene again whose model is edited", scene::show_scene;

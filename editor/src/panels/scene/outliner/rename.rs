@@ -7,6 +7,7 @@ use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
 use crate::panels::style::ROW;
 use dragonfly_anim::stage::gesture::in_this_text;
 use dragonfly_anim::stage::splice::rename;
+use dragonfly_document::edit::ScriptLabel;
 use egui::{Rect, Sense, TextStyle, Ui, pos2, vec2};
 
 /// The thing whose name is typed, by its id.
@@ -61,7 +62,7 @@ fn renamed(context: &PanelContext<'_>, thing: &str, name: &str) -> SceneRequest 
         Some(splices) => SceneRequest::Text(ScriptChange {
             from: std::sync::Arc::clone(tree.text()),
             text: splices.apply(tree.text()),
-            label: "Rename",
+            label: ScriptLabel::Rename,
             gesture: None,
         }),
         None => SceneRequest::Refused(format!(

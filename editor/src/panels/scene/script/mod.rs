@@ -18,6 +18,7 @@ use crate::panels::commands::Id as CommandId;
 use coloring::ScriptLayout;
 use dragonfly_anim::stage::splice::TextSplice;
 use dragonfly_anim::stage::writing::{CompletionNames, completions};
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::{Change, SceneView};
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
@@ -230,10 +231,10 @@ impl ScriptPanel {
         let (gesture, over) = self.word.gesture(&splice, time, || context.new_gesture());
         requests.extend(over.map(|gesture| Request::Change(Change::Release(gesture))));
         let label = match (splice.range.is_empty(), splice.text.is_empty()) {
-            (_, true) => "Delete text",
-            (false, false) => "Replace text",
-            (true, false) if splice.text.chars().count() > 1 => "Paste text",
-            (true, false) => "Type",
+            (_, true) => ScriptLabel::DeleteText,
+            (false, false) => ScriptLabel::ReplaceText,
+            (true, false) if splice.text.chars().count() > 1 => ScriptLabel::PasteText,
+            (true, false) => ScriptLabel::Type,
         };
         let from: Arc<str> = before.into();
         let change =

@@ -9,6 +9,7 @@ use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed};
 use dragonfly_anim::stage::script::StageRepeat;
 use dragonfly_anim::stage::table::element;
 use dragonfly_anim::stage::time::{Decimal, StageTime};
+use dragonfly_document::edit::ScriptLabel;
 use egui::Ui;
 
 /// Factors of speed that are offered.
@@ -37,7 +38,9 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
         submenu(ui, "Speed", |ui| {
             for speed in SPEEDS {
                 let title = format!("{speed}×");
-                gesture(ui, &title, "Change speed", sheet, requests, |scene| set_speed(scene, action, speed));
+                gesture(ui, &title, ScriptLabel::ChangeSpeed, sheet, requests, |scene| {
+                    set_speed(scene, action, speed)
+                });
             }
         });
     }
@@ -46,14 +49,23 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
             for times in REPEATS {
                 let Some(number) = Decimal::parse(times) else { continue };
                 let title = format!("{times}×");
-                gesture(ui, &title, "Change repeat", sheet, requests, |scene| {
+                gesture(ui, &title, ScriptLabel::ChangeRepeat, sheet, requests, |scene| {
                     set_repeat(scene, action, StageRepeat::Times(number))
                 });
             }
-            gesture(ui, "For as long as there is time", "Change repeat", sheet, requests, |scene| {
-                set_repeat(scene, action, StageRepeat::Fill)
-            });
+            gesture(
+                ui,
+                "For as long as there is time",
+                ScriptLabel::ChangeRepeat,
+                sheet,
+                requests,
+                |scene| set_repeat(scene, action, StageRepeat::Fill),
+            );
         });
+    }
+    ui.separator();
+    for id in [Id::CutActions, Id::CopyActions, Id::PasteActions] {
+        item(ui, sheet.context, id, false, requests);
     }
     ui.separator();
     for id in [Id::SceneDuplicate, Id::SceneDelete, Id::SceneLift] {
@@ -72,7 +84,7 @@ fn fade_entries(
     submenu(ui, title, |ui| {
         for seconds in FADES {
             let title = if seconds == 0.0 { "None".to_owned() } else { format!("{seconds} s") };
-            gesture(ui, &title, "Change fade", sheet, requests, |scene| {
+            gesture(ui, &title, ScriptLabel::ChangeFade, sheet, requests, |scene| {
                 set_fade(scene, action, end, StageTime::from_seconds(seconds))
             });
         }

@@ -1,47 +1,32 @@
-//! Drags of bars: moved, trimmed, faded, stretched.
+//! Clicks, selection boxes and drags on the bars.
 
+use super::held_bar::{HeldBar, begin};
 use super::lane_layout::{SceneBarPart, SceneHit};
 use super::sheet::SceneSheet;
-use super::snap::snapped_time;
-use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, readout};
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, SelectionBox, choice_of, position};
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
-use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureRefusal, SequenceOrder, in_this_text, move_clip, set_fade, set_speed,
-    trim_end, trim_start,
-};
-use dragonfly_anim::stage::lanes::SceneBar;
-use dragonfly_anim::stage::time::{StageRate, StageTime, TICKS_PER_SECOND};
+use crate::panels::scene::SceneRequest;
+use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::history::Gesture;
-use egui::{CursorIcon, Pos2, Response, Ui};
-use glam::Vec2;
+use egui::{CursorIcon, Pos2, Rect, Response, Ui, pos2};
 
-/// The drag of a bar, and what is under the pointer.
-#[derive(Debug, Default)]
-pub(super) struct BarDragging {
-    drag: PanelDrag<SceneHit, HeldBar>,
-    hovered: Option<SceneHit>,
+/// What is dragged.
+#[derive(Clone, Debug)]
+enum TimelineDrag {
+    /// A bar.
+    Bar(Box<HeldBar>),
+    /// A box that selects.
+    Box(SelectionBox),
 }
 
-/// A bar that is dragged.
-#[derive(Clone, Debug)]
-struct HeldBar {
-    base: SceneBase,
-    gesture: Gesture,
-    bar: SceneBar,
-    part: SceneBarPart,
-    /// Time of the pointer when it was pressed.
-    grabbed: StageTime,
-    /// Name of the thing.
-    name: Box<str>,
-    /// Whether something was sent.
-    is_sent: bool,
-    /// The time to which the edge was brought last, with which keys.
-    asked: Option<(StageTime, bool, Followers)>,
-    /// Why it could not be brought there.
-    refused: Option<GestureRefusal>,
+/// The drag of a bar or a box, and what is under the pointer.
+#[derive(Debug, Default)]
+pub(super) struct BarDragging {
+    drag: PanelDrag<SceneHit, TimelineDrag>,
+    hovered: Option<SceneHit>,
+    /// Where the box ended in the last frame in which the pointer was known.
+    last: Option<Pos2>,
 }
 
 impl BarDragging {
@@ -77,28 +62,45 @@ impl BarDragging {
         match self.drag.step(&input, held, hit) {
             DragEvent::Clicked(press) => click(&press.on, sheet, press.modifiers, requests),
             DragEvent::Started(press) => {
-                let time = StageTime::from_seconds(f64::from(sheet.scale.time_at(press.at.x)));
-                match begin(press.on, time, sheet) {
+                let time = sheet.scale.time_at(press.at.x);
+                match begin(press.on, StageTime::from_seconds(f64::from(time)), sheet) {
                     Ok(Some(held)) => {
-                        requests.push(Request::Scene(SceneRequest::SelectAction(Some(held.bar.action))));
-                        self.drag.begin(held);
+                        let select = SceneRequest::SelectActions(held.selection(), Choice::Replace);
+                        requests.push(Request::Scene(select));
+                        self.drag.begin(TimelineDrag::Bar(Box::new(held)));
                     }
-                    Ok(None) => {}
+                    Ok(None) => {
+                        let from = [time, press.at.y - top];
+                        let choice = choice_of(press.modifiers);
+                        self.drag.begin(TimelineDrag::Box(SelectionBox { from, choice }));
+                    }
                     Err(refusal) => requests.push(Request::Scene(SceneRequest::Refused(refusal.to_string()))),
                 }
             }
-            DragEvent::Moved(at) => {
-                if let Some(held) = self.drag.drag_mut() {
-                    held.moved(ui, at, &input, sheet, requests);
+            DragEvent::Moved(at) => match self.drag.drag_mut() {
+                Some(TimelineDrag::Bar(held)) => held.moved(ui, at, &input, sheet, requests),
+                Some(TimelineDrag::Box(drawn)) => {
+                    let [time, y] = drawn.from;
+                    let corner = pos2(sheet.scale.x_of(time), top + y);
+                    SelectionBox::paint(ui, sheet.canvas, corner, position(at));
+                    self.last = Some(position(at));
                 }
-            }
-            DragEvent::Dropped(held) if held.is_sent => {
+                None => {}
+            },
+            DragEvent::Dropped(TimelineDrag::Bar(held)) if held.is_sent => {
                 requests.push(Request::Change(Change::Release(held.gesture)));
             }
-            DragEvent::Cancelled(held) if held.is_sent => {
+            DragEvent::Cancelled(TimelineDrag::Bar(held)) if held.is_sent => {
                 requests.push(Request::Change(Change::Cancel(held.gesture)));
             }
-            DragEvent::Dropped(_) | DragEvent::Cancelled(_) | DragEvent::Nothing | DragEvent::Pressed => {}
+            DragEvent::Dropped(TimelineDrag::Box(drawn)) => {
+                let at = input.pointer.or(self.last).unwrap_or_default();
+                requests.push(Request::Scene(boxed(&drawn, at, sheet)));
+            }
+            DragEvent::Dropped(TimelineDrag::Bar(_))
+            | DragEvent::Cancelled(_)
+            | DragEvent::Nothing
+            | DragEvent::Pressed => {}
         }
         if response.double_clicked()
             && let Some(SceneHit::Bar { action, .. }) = self.hovered
@@ -110,7 +112,8 @@ impl BarDragging {
 
     fn cursor(&self, ui: &Ui) {
         let part = match (self.drag.drag(), self.hovered) {
-            (Some(held), _) => held.part,
+            (Some(TimelineDrag::Bar(held)), _) => held.part,
+            (Some(TimelineDrag::Box(_)), _) => return,
             (None, Some(SceneHit::Bar { part, .. })) => part,
             (None, Some(SceneHit::Lane(_) | SceneHit::Nothing) | None) => return,
         };
@@ -127,7 +130,7 @@ impl BarDragging {
 fn click(hit: &SceneHit, sheet: &SceneSheet<'_>, modifiers: egui::Modifiers, requests: &mut Vec<Request>) {
     match *hit {
         SceneHit::Bar { action, .. } => {
-            requests.push(Request::Scene(SceneRequest::SelectAction(Some(action))))
+            requests.push(Request::Scene(SceneRequest::SelectActions(vec![action], choice_of(modifiers))));
         }
         SceneHit::Lane(lane) => {
             requests.push(Request::Scene(SceneRequest::SelectAction(None)));
@@ -140,155 +143,17 @@ fn click(hit: &SceneHit, sheet: &SceneSheet<'_>, modifiers: egui::Modifiers, req
     }
 }
 
-/// Begins a drag; `Ok(None)` where there is nothing to drag.
-fn begin(
-    hit: SceneHit,
-    grabbed: StageTime,
-    sheet: &SceneSheet<'_>,
-) -> Result<Option<HeldBar>, GestureRefusal> {
-    let SceneHit::Bar { lane, action, part } = hit else { return Ok(None) };
-    let Some((lane, bar)) = sheet.lanes.list.get(lane).zip(sheet.lanes.bar_of(action).map(|(_, bar)| bar))
-    else {
-        return Ok(None);
-    };
-    if sheet.context.scene_editing.is_locked(&lane.name) {
-        return Err(GestureRefusal(format!("{} is locked", lane.name)));
-    }
-    let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene))?;
-    if let Some(own) = base.script.actions().get(action) {
-        in_this_text(base.script.tree(), own.element)?;
-    }
-    let gesture = sheet.context.new_gesture();
-    Ok(Some(HeldBar {
-        base,
-        gesture,
-        bar: bar.clone(),
-        part,
-        grabbed,
-        name: lane.name.clone(),
-        is_sent: false,
-        asked: None,
-        refused: None,
-    }))
-}
-
-impl HeldBar {
-    fn moved(
-        &mut self,
-        ui: &Ui,
-        at: Vec2,
-        input: &PointerInput,
-        sheet: &SceneSheet<'_>,
-        requests: &mut Vec<Request>,
-    ) {
-        let context = sheet.context;
-        let pointer = StageTime::from_seconds(f64::from(sheet.scale.time_at(at.x)));
-        let by = pointer - self.grabbed;
-        let edge = match self.part {
-            SceneBarPart::Body | SceneBarPart::Start => self.bar.begin + by,
-            SceneBarPart::End => self.bar.end + by,
-            SceneBarPart::FadeIn => self.bar.begin + self.bar.fade_in + by,
-            SceneBarPart::FadeOut => self.bar.end - self.bar.fade_out + by,
-        };
-        let rate = self.base.script.rate();
-        let reach = StageTime::from_seconds(f64::from(sheet.scale.seconds(6.0)));
-        let snaps = context.keys.snap() != input.modifiers.command;
-        let edge = match snaps {
-            true => snapped_time(edge, sheet.lanes, self.bar.action, context.scene_time(), reach, rate),
-            false => at_five_decimals(edge),
-        };
-        let edge = edge.max(StageTime::ZERO);
-        let followers =
-            if context.scene_editing.ripple() == input.ripple { Followers::Stay } else { Followers::Follow };
-        // A movement within the same frame changes nothing.
-        if self.asked.replace((edge, input.modifiers.alt, followers))
-            != Some((edge, input.modifiers.alt, followers))
-        {
-            requests.extend(self.bring_to(edge, input.modifiers.alt, followers));
-        }
-        let pointer = egui::pos2(at.x, at.y);
-        match &self.refused {
-            None => readout(ui, pointer, &self.amounts(edge, rate)),
-            Some(refusal) => readout(ui, pointer, &refusal.to_string()),
-        }
-    }
-
-    /// Returns the request that brings the dragged part to `edge`; `None` where it is refused.
-    fn bring_to(&mut self, edge: StageTime, alt: bool, followers: Followers) -> Option<Request> {
-        let (label, result) = self.gesture_to(edge, alt, followers);
-        let (text, refused) = result.map_or_else(|refusal| (None, Some(refusal)), |text| (Some(text), None));
-        self.refused = refused;
-        let from = std::sync::Arc::clone(self.base.text());
-        let change = ScriptChange { from, text: text?, label, gesture: Some(self.gesture) };
-        self.is_sent = true;
-        Some(Request::Scene(SceneRequest::Text(change)))
-    }
-
-    /// Returns the label and the text of the gesture that brings the dragged part to `edge`.
-    fn gesture_to(
-        &self,
-        edge: StageTime,
-        alt: bool,
-        followers: Followers,
-    ) -> (&'static str, Result<String, GestureRefusal>) {
-        let (scene, action) = (self.base.scene(), self.bar.action);
-        match self.part {
-            SceneBarPart::Body => {
-                let order = if alt { SequenceOrder::Keep } else { SequenceOrder::Change };
-                ("Move clip", move_clip(&scene, action, edge, order, followers))
-            }
-            SceneBarPart::Start => ("Trim start", trim_start(&scene, action, edge)),
-            SceneBarPart::End if alt => ("Change speed", set_speed(&scene, action, self.speed_to(edge))),
-            SceneBarPart::End => ("Trim end", trim_end(&scene, action, edge, followers)),
-            SceneBarPart::FadeIn => {
-                ("Change fade", set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin))
-            }
-            SceneBarPart::FadeOut => {
-                ("Change fade", set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge))
-            }
-        }
-    }
-
-    /// Returns the speed with which the bar would end at a time.
-    fn speed_to(&self, edge: StageTime) -> f64 {
-        let speed = self
-            .base
-            .script
-            .element(self.bar.action)
-            .value("speed")
-            .and_then(|text| text.parse::<f64>().ok());
-        let (old, new) = ((self.bar.end - self.bar.begin).seconds(), (edge - self.bar.begin).seconds());
-        speed.unwrap_or(1.0) * old / new.max(1e-3)
-    }
-
-    /// Returns the numbers of the drag.
-    fn amounts(&self, edge: StageTime, rate: StageRate) -> String {
-        let (seconds, frame) = (edge.seconds(), rate.nearest_frame(edge));
-        let what = match self.part {
-            SceneBarPart::Body => format!(
-                "begins at {seconds:.3} s, frame {frame}, {:+.3} s",
-                (edge - self.bar.begin).seconds()
-            ),
-            SceneBarPart::Start => format!("starts at {seconds:.3} s, frame {frame}"),
-            SceneBarPart::End => {
-                format!(
-                    "ends at {seconds:.3} s, frame {frame}, lasts {:.3} s",
-                    (edge - self.bar.begin).seconds()
-                )
-            }
-            SceneBarPart::FadeIn => {
-                format!("fades in for {:.3} s", (edge - self.bar.begin).seconds().max(0.0))
-            }
-            SceneBarPart::FadeOut => {
-                format!("fades out for {:.3} s", (self.bar.end - edge).seconds().max(0.0))
-            }
-        };
-        format!("{} · {}: {what}", self.name, self.bar.label)
-    }
-}
-
-/// Returns the nearest time that a script writes with five decimals.
-fn at_five_decimals(time: StageTime) -> StageTime {
-    const STEP: i64 = TICKS_PER_SECOND / 100_000;
-    StageTime::from_ticks((time.ticks() + STEP / 2).div_euclid(STEP) * STEP)
+/// Returns the request that selects the bars that a box touches, up to its corner at the pointer.
+fn boxed(drawn: &SelectionBox, pointer: Pos2, sheet: &SceneSheet<'_>) -> SceneRequest {
+    let top = sheet.canvas.top() - sheet.scroll;
+    let [[left, right], [first, last]] = drawn.ranges([sheet.scale.time_at(pointer.x), pointer.y - top]);
+    let frame = Rect::from_min_max(
+        pos2(sheet.scale.x_of(left), top + first),
+        pos2(sheet.scale.x_of(right), top + last),
+    );
+    let lanes = sheet.lanes.list.iter().enumerate();
+    let bars = lanes.flat_map(|(index, lane)| lane.bars.iter().map(move |bar| (index, bar)));
+    let touched =
+        bars.filter(|(index, bar)| sheet.layout.bar(*index, bar, top, sheet.scale).intersects(frame));
+    SceneRequest::SelectActions(touched.map(|(_, bar)| bar.action).collect(), drawn.choice)
 }

@@ -97,11 +97,17 @@ impl SceneLaneLayout {
         Rect::from_min_max(pos2(from, y + 2.0), pos2(to.max(from + 3.0), y + height - 2.0))
     }
 
+    /// Returns the lane at a height below the top of the first one, points.
+    pub(super) fn lane_at(&self, y: f32) -> Option<usize> {
+        let lane = self.tops.partition_point(|&top| top <= y).checked_sub(1)?;
+        (lane < self.mains.len()).then_some(lane)
+    }
+
     /// Returns what is at a point. Of bars over each other it is the one that begins last, which is drawn above.
     pub fn hit(&self, lanes: &SceneLanes, at: Pos2, top: f32, scale: &TimeScale) -> SceneHit {
-        let y = at.y - top;
-        let lane = self.tops.partition_point(|&top| top <= y).checked_sub(1);
-        let Some((index, lane)) = lane.and_then(|index| Some((index, lanes.list.get(index)?))) else {
+        let Some((index, lane)) =
+            self.lane_at(at.y - top).and_then(|index| Some((index, lanes.list.get(index)?)))
+        else {
             return SceneHit::Nothing;
         };
         let found = lane.bars.iter().rev().find_map(|bar| {

@@ -11,6 +11,7 @@ use crate::panels::request::Request;
 use crate::panels::scene::SceneRequest;
 use dragonfly_anim::stage::gesture::{add_clip, attach_thing, cut_to};
 use dragonfly_anim::stage::lanes::SceneLane;
+use dragonfly_document::edit::ScriptLabel;
 use egui::{Button, Response, Ui};
 
 /// The context menu, and what it was opened on.
@@ -33,7 +34,10 @@ impl SceneMenu {
         }
         if response.secondary_clicked() {
             self.on = drag.hovered();
-            if let Some(SceneHit::Bar { action, .. }) = self.on {
+            // Of several selected actions each one opens the menu for all.
+            if let Some(SceneHit::Bar { action, .. }) = self.on
+                && !sheet.context.scene_editing.actions().contains(&action)
+            {
                 requests.push(Request::Scene(SceneRequest::SelectAction(Some(action))));
             }
         }
@@ -60,7 +64,7 @@ fn lane_entries(ui: &mut Ui, lane: &SceneLane, sheet: &SceneSheet<'_>, requests:
             }
             egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
                 for take in model.takes() {
-                    gesture(ui, take.name(), "Add clip", sheet, requests, |scene| {
+                    gesture(ui, take.name(), ScriptLabel::AddClip, sheet, requests, |scene| {
                         add_clip(scene, &lane.name, take.name(), at)
                     });
                 }
@@ -89,12 +93,16 @@ fn attach_entries(
 ) {
     let at = sheet.context.scene_time();
     submenu(ui, &*holder.id, |ui| {
-        gesture(ui, "The whole", "Attach", sheet, requests, |scene| attach_thing(scene, who, &holder.id, at));
+        gesture(ui, "The whole", ScriptLabel::Attach, sheet, requests, |scene| {
+            attach_thing(scene, who, &holder.id, at)
+        });
         let bones = holder.model.as_ref().map_or(&[][..], |model| &model.skeleton().bones);
         egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
             for bone in bones.iter().filter(|bone| !bone.name.is_empty()) {
                 let to = format!("{}.{}", holder.id, bone.name);
-                gesture(ui, &bone.name, "Attach", sheet, requests, |scene| attach_thing(scene, who, &to, at));
+                gesture(ui, &bone.name, ScriptLabel::Attach, sheet, requests, |scene| {
+                    attach_thing(scene, who, &to, at)
+                });
             }
         });
     });
@@ -106,9 +114,14 @@ fn general(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {
     let things = sheet.scene.plan.as_ref().map_or(&[][..], |plan| plan.things());
     submenu(ui, "Cut at the playhead to", |ui| {
         for camera in things.iter().filter(|thing| thing.kind == "camera") {
-            gesture(ui, &camera.id, "Add shot", sheet, requests, |scene| cut_to(scene, &camera.id, at));
+            gesture(ui, &camera.id, ScriptLabel::AddShot, sheet, requests, |scene| {
+                cut_to(scene, &camera.id, at)
+            });
         }
     });
+    ui.separator();
+    item(ui, sheet.context, Id::PasteActions, false, requests);
+    item(ui, sheet.context, Id::SelectAllActions, false, requests);
     ui.separator();
     for id in [Id::FitScene, Id::ToggleSceneRipple, Id::ToggleSnap] {
         let on = match id {

@@ -4,13 +4,14 @@ use super::sheet::SceneSheet;
 use crate::panels::request::Request;
 use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
 use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene};
+use dragonfly_document::edit::ScriptLabel;
 use egui::{Button, Ui};
 
 /// Draws an entry that changes the script.
 pub(super) fn gesture(
     ui: &mut Ui,
     title: &str,
-    label: &'static str,
+    label: ScriptLabel,
     sheet: &SceneSheet<'_>,
     requests: &mut Vec<Request>,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,

@@ -3,6 +3,7 @@
 mod bar_menu;
 mod drag;
 mod gutter;
+mod held_bar;
 mod lane_layout;
 mod lane_menu;
 mod menu_entry;
@@ -27,6 +28,7 @@ use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 pub use lane_layout::{SceneBarPart, SceneHit, SceneLaneLayout};
 use paint::BarContents;
+pub use paint::mixed_part;
 use sheet::SceneSheet;
 pub use snap::snapped_time;
 

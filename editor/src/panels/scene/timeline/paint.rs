@@ -4,9 +4,10 @@ use super::lane_layout::{SceneHit, fade_handles};
 use super::sheet::SceneSheet;
 use super::thumbnail::ShotTextures;
 use super::waveform::{SceneWaveforms, sound_of};
+use crate::panels::keys::TimeScale;
 use crate::panels::scene::SceneSound;
 use crate::panels::theme::Theme;
-use dragonfly_anim::stage::lanes::{SceneBar, SceneLane};
+use dragonfly_anim::stage::lanes::{SceneBar, SceneLane, Takeover};
 use dragonfly_picture::between;
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
@@ -65,7 +66,6 @@ pub(super) fn bars(
     for (index, lane) in sheet.lanes.list.iter().enumerate() {
         let is_dim = sheet.context.scene_editing.is_hidden(&lane.name)
             || sheet.context.scene_editing.is_locked(&lane.name);
-        let mut before: Option<(&SceneBar, Rect)> = None;
         for bar in &lane.bars {
             let rect = sheet.layout.bar(index, bar, top, sheet.scale);
             if rect.right() >= sheet.canvas.left()
@@ -77,14 +77,7 @@ pub(super) fn bars(
                     matches!(hovered, Some(SceneHit::Bar { action, .. }) if action == bar.action);
                 let state = BarState { is_hovered, is_dim: is_dim || bar.file.is_some() };
                 draw_bar(&painter, sheet, (lane, bar, rect), state, contents);
-                if let Some((_, other)) =
-                    before.filter(|(other, _)| bar.is_main && other.is_main && bar.kind != "shot")
-                {
-                    cross_fade(&painter, other, rect, sheet.theme);
-                }
-            }
-            if bar.is_main && before.is_none_or(|(_, other)| rect.right() > other.right()) {
-                before = Some((bar, rect));
+                takeover(&painter, bar, rect, sheet);
             }
         }
     }
@@ -118,7 +111,7 @@ fn draw_bar(
     contents: &mut BarContents,
 ) {
     let theme = sheet.theme;
-    let is_selected = sheet.context.scene_editing.action() == Some(bar.action);
+    let is_selected = sheet.context.scene_editing.actions().contains(&bar.action);
     let strength = if is_dim { 0.35 } else { 1.0 };
     let color = hue(theme, lane, bar).gamma_multiply(strength);
     if bar.is_instant() {
@@ -210,15 +203,27 @@ fn fades(painter: &Painter, sheet: &SceneSheet<'_>, bar: &SceneBar, rect: Rect, 
     }
 }
 
-/// Draws a cross over the part in which one bar replaces another.
-fn cross_fade(painter: &Painter, before: Rect, after: Rect, theme: &Theme) {
-    let (left, right) = (after.left(), before.right().min(after.right()));
-    if right - left < 2.0 {
-        return;
+/// Draws how a bar takes over from one that is still on: a cross where they mix, a line where it cuts that one off.
+fn takeover(painter: &Painter, bar: &SceneBar, rect: Rect, sheet: &SceneSheet<'_>) {
+    let Some(part) = mixed_part(bar, rect, sheet.scale) else { return };
+    if part.width() == 0.0 {
+        let stroke = Stroke::new(2.0, sheet.theme.text.gamma_multiply(0.8));
+        painter.vline(part.left() + 1.0, part.y_range(), stroke);
+    } else {
+        let stroke = Stroke::new(1.0, sheet.theme.text.gamma_multiply(0.45));
+        painter.line_segment([part.left_bottom(), part.right_top()], stroke);
+        painter.line_segment([part.left_top(), part.right_bottom()], stroke);
     }
-    let stroke = Stroke::new(1.0, theme.text.gamma_multiply(0.45));
-    painter.line_segment([pos2(left, after.bottom()), pos2(right, after.top())], stroke);
-    painter.line_segment([pos2(left, after.top()), pos2(right, after.bottom())], stroke);
+}
+
+/// Returns the part of a bar in which it mixes with the one before it, without width where it cuts that one off; `None` where it does neither.
+pub fn mixed_part(bar: &SceneBar, rect: Rect, scale: &TimeScale) -> Option<Rect> {
+    let right = match bar.takeover {
+        Takeover::After => return None,
+        Takeover::Cut => rect.left(),
+        Takeover::Mix(until) => scale.x_of(until.seconds() as f32).min(rect.right()),
+    };
+    Some(Rect::from_min_max(rect.min, pos2(right.max(rect.left()), rect.bottom())))
 }
 
 /// Draws the name of a bar, cut at its right end.

@@ -30,9 +30,11 @@ pub(super) fn show(
         let rate = sheet.scene.script.as_ref()?.rate();
         let time = StageTime::from_seconds(f64::from(time).max(0.0));
         let reach = StageTime::from_seconds(f64::from(scale.seconds(4.0)));
-        // No action has the number 0: all ends count.
-        let snapped =
-            if snaps { snapped_time(time, sheet.lanes, 0, frame_at(time, rate), reach, rate) } else { time };
+        let snapped = if snaps {
+            snapped_time(time, sheet.lanes, &[], frame_at(time, rate), reach, rate)
+        } else {
+            time
+        };
         Some(context.playhead_at(snapped))
     };
     let response = scrub.follow(ui, &ruler, seconds, requests);

@@ -4,16 +4,16 @@ use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::time::{StageRate, StageTime};
 
 /// Returns a time as a drag uses it: the nearest end of another bar, moment of a take or the playhead within `reach`, otherwise the nearest
-/// frame. `action` is the one that is dragged: its own ends do not count.
+/// frame. `dragged` are the actions that are dragged: their own ends do not count.
 pub fn snapped_time(
     time: StageTime,
     lanes: &SceneLanes,
-    action: usize,
+    dragged: &[usize],
     playhead: StageTime,
     reach: StageTime,
     rate: StageRate,
 ) -> StageTime {
-    let others = lanes.list.iter().flat_map(|lane| &lane.bars).filter(|bar| bar.action != action);
+    let others = lanes.list.iter().flat_map(|lane| &lane.bars).filter(|bar| !dragged.contains(&bar.action));
     let ends = others.flat_map(|bar| {
         let ends = [Some(bar.begin), (!bar.is_passive).then_some(bar.end)];
         ends.into_iter().flatten().chain(bar.marks.iter().map(|mark| mark.time))

@@ -1,0 +1,159 @@
+//! Clips as a text of the clipboard.
+
+use super::draft::ScriptDraft;
+use super::insert::{ActionPlace, place_in_par, place_index};
+use super::mixes::{ActionOrigins, mixed};
+use super::other_lane::fits_onto;
+use super::removal::duplicate_clip;
+use super::scene::{GestureRefusal, GestureScene, NO_PLACE, refused};
+use super::several::outermost;
+use crate::stage::script::{ScriptElement, ScriptTree};
+use crate::stage::splice::{
+    ElementPlace, TextSplices, insert_text, remove_attribute, set_attribute, written_element,
+};
+use crate::stage::table::ElementGroup;
+use crate::stage::time::{StageTime, parse_time};
+use crate::stage::time_text::{readable, time_text};
+
+/// Start of a text of copied clips: that of a script without a cast.
+const HEAD: &str = "<script version=\"1\"";
+
+/// Returns copies of actions as the text of a small script, in which each begins as long after the first one as in the scene. Copies have no
+/// ids, and no times that refer to other actions.
+///
+/// # Errors
+///
+/// There is no such action, none is given, or one of them contains others.
+pub fn copied_clips(scene: &GestureScene<'_>, actions: &[usize]) -> Result<String, GestureRefusal> {
+    let actions = outermost(scene, actions)?;
+    let first = actions.iter().map(|&action| scene.times(action).begin).min().unwrap_or_default();
+    let rate = scene.script.rate();
+    let fps = scene.script.tree().elements()[0].value("fps").unwrap_or("24");
+    let mut text = format!("{HEAD} fps=\"{fps}\">\n");
+    for action in actions {
+        let (own, times) = (&scene.script.actions()[action], scene.times(action));
+        let element = scene.script.element(action);
+        if element.row.group != ElementGroup::Action {
+            return refused("Only actions are copied, not what contains them");
+        }
+        let begin = time_text(readable(times.begin - first, rate), rate, "");
+        let draft = ScriptDraft::of(scene.script).with(&[
+            (own.element, "id", None),
+            (own.element, "begin", Some(begin)),
+            // Its own length where another action decided it.
+            (own.element, "end", None),
+        ])?;
+        let draft = match own.end.is_some()
+            || (own.passive && element.row.name != "shot" && own.dur.is_none() && times.stop > times.begin)
+        {
+            true => {
+                let dur = time_text(readable(times.stop - times.begin, rate), rate, "");
+                draft.with(&[(own.element, "dur", Some(dur))])?
+            }
+            false => draft,
+        };
+        text += &format!("  {}\n", written_element(draft.tree(), own.element).unwrap_or_default());
+    }
+    text.push_str("</script>\n");
+    Ok(text)
+}
+
+/// Returns whether a text is one that [`copied_clips`] returns.
+pub fn is_copied_clips(text: &str) -> bool {
+    text.starts_with(HEAD)
+}
+
+/// Inserts copied clips, the first of them at `at`; all of them for the thing `onto`, or each for the one that it was copied from.
+///
+/// # Errors
+///
+/// The text contains no clips, a thing is not in the cast or does no such action, a model lacks a take or a bone that a clip names, or what
+/// a clip refers to is missing. Then nothing is inserted.
+pub fn paste_clips(
+    scene: &GestureScene<'_>,
+    copied: &str,
+    at: StageTime,
+    onto: Option<&str>,
+) -> Result<String, GestureRefusal> {
+    let copied = ScriptTree::read(copied)?;
+    let rate = scene.script.rate();
+    let at = at.max(StageTime::ZERO);
+    let is_clip =
+        |element: &ScriptElement| element.parent == Some(0) && element.row.group == ElementGroup::Action;
+    let clips: Vec<usize> =
+        (0..copied.elements().len()).filter(|&element| is_clip(&copied.elements()[element])).collect();
+    if clips.is_empty() {
+        return refused("The clipboard contains no actions");
+    }
+    let mut from: Vec<&str> = clips.iter().filter_map(|&clip| copied.elements()[clip].value("who")).collect();
+    from.dedup();
+    // Clips of several things stay with theirs.
+    let onto = onto.filter(|_| from.len() <= 1);
+    let (mut origins, mut lanes) = (ActionOrigins::same(scene), Vec::new());
+    let mut parts: Vec<(usize, ElementPlace, String)> = Vec::new();
+    for clip in clips.into_iter().rev() {
+        let element = &copied.elements()[clip];
+        let who = element.value("who").map(|who| onto.filter(|_| element.row.name != "shot").unwrap_or(who));
+        if let Some(who) = who {
+            fits_onto(scene, element, who)?;
+        }
+        let own = |&action: &usize| match who {
+            Some(who) => scene.script.element(action).value("who") == Some(who),
+            None => scene.script.element(action).row.name == element.row.name,
+        };
+        let near = (1..scene.script.actions().len()).rfind(own);
+        let ActionPlace { place, base } = place_in_par(scene, near);
+        let offset = element.value("begin").and_then(|begin| parse_time(begin, rate));
+        let begin = readable(at + offset.unwrap_or_default() - base, rate);
+        let text = adapted(&copied, clip, who, &time_text(begin, rate, ""))?;
+        let (ElementPlace::First(near) | ElementPlace::After(near)) = place;
+        let range = scene.script.tree().elements().get(near).map(|element| element.range.clone());
+        let at =
+            range.map_or(0, |range| if place == ElementPlace::First(near) { range.start } else { range.end });
+        parts.push((at, place, text));
+        lanes.extend(who);
+    }
+    // From the end of the text to its start, so that the elements before a new one keep their numbers.
+    parts.sort_by_key(|(at, ..)| std::cmp::Reverse(*at));
+    let mut draft = ScriptDraft::of(scene.script);
+    for (_, place, text) in parts {
+        origins = origins.with_new(place_index(scene, place));
+        draft = draft.then(|tree| insert_text(tree, place, &text))?;
+    }
+    mixed(scene, draft, &origins, lanes)?.finish()
+}
+
+/// Inserts copies of actions after the last of them ends, each as long after the first one as now. One action gets its copy after itself, as by
+/// [`duplicate_clip`].
+///
+/// # Errors
+///
+/// As [`copied_clips`] and [`paste_clips`]; of one action as [`duplicate_clip`].
+pub fn duplicate_clips(scene: &GestureScene<'_>, actions: &[usize]) -> Result<String, GestureRefusal> {
+    let actions = outermost(scene, actions)?;
+    if let [action] = actions[..] {
+        return duplicate_clip(scene, action);
+    }
+    let last = actions.iter().map(|&action| scene.times(action).stop).max().unwrap_or_default();
+    paste_clips(scene, &copied_clips(scene, &actions)?, last, None)
+}
+
+/// Returns the text of a copied element with another thing and begin.
+fn adapted(
+    copied: &ScriptTree,
+    clip: usize,
+    who: Option<&str>,
+    begin: &str,
+) -> Result<String, GestureRefusal> {
+    let begun = set_attribute(copied, clip, "begin", begin);
+    let given = who.map_or(Some(TextSplices::default()), |who| set_attribute(copied, clip, "who", who));
+    // The ids of a text from somewhere else may be taken.
+    let unnamed = remove_attribute(copied, clip, "id");
+    let splices = begun
+        .zip(given)
+        .zip(unnamed)
+        .and_then(|((begun, given), unnamed)| TextSplices::joined([begun, given, unnamed]));
+    let Some(splices) = splices else { return refused(NO_PLACE) };
+    let tree = ScriptTree::read(splices.apply(copied.text()))?;
+    written_element(&tree, clip).map_or_else(|| refused(NO_PLACE), Ok)
+}

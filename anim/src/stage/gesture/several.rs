@@ -1,0 +1,143 @@
+//! Several clips moved or deleted in one step.
+
+use super::begin::{ends_with_another, following_end, kept_follower, moved_moment, usual_begin};
+use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
+use super::mixes::{ActionOrigins, mixed, with_children};
+use super::moving::{SequenceOrder, move_clip};
+use super::removal::{delete_clip, user_of};
+use super::scene::{Followers, GestureRefusal, GestureScene, refused};
+use crate::stage::schedule::resolve;
+use crate::stage::splice::{AttachedComments, TextSplices, delete};
+use crate::stage::time::{StageTime, TICKS_PER_SECOND};
+use std::borrow::Cow;
+
+/// Number of times that begins are corrected which depend on others that move too.
+const MOST_ROUNDS: usize = 3;
+/// Distance from its new time at which a clip is there: begins are written in whole milliseconds.
+const NEAR: i64 = TICKS_PER_SECOND / 1000;
+
+/// Moves actions by the same time; the first one begins at zero at the earliest. Several of them keep their order in a `seq`, and one is moved
+/// as by [`move_clip`].
+///
+/// # Errors
+///
+/// There is no such action, none is given, or one of them cannot be moved; then none is.
+pub fn move_clips(
+    scene: &GestureScene<'_>,
+    actions: &[usize],
+    by: StageTime,
+    order: SequenceOrder,
+    followers: Followers,
+) -> Result<String, GestureRefusal> {
+    let actions = outermost(scene, actions)?;
+    if let [action] = actions[..] {
+        return move_clip(scene, action, scene.times(action).begin + by, order, followers);
+    }
+    let first = actions.iter().map(|&action| scene.times(action).begin).min().unwrap_or_default();
+    let by = by.max(-first);
+    let lengths = scene.lengths();
+    let mut script = Cow::Borrowed(scene.script);
+    let mut schedule = Cow::Borrowed(scene.schedule());
+    let mut targets: Vec<(usize, StageTime)> =
+        actions.iter().map(|&action| (action, scene.times(action).begin + by)).collect();
+    if followers == Followers::Stay {
+        let moves = |&&action: &&usize| !ends_with_another(scene, action);
+        let after = |action: &usize| kept_follower(scene, *action, by).and(scene.script.next_in_seq(*action));
+        let stay = actions.iter().filter(moves).filter_map(after).filter(|next| !actions.contains(next));
+        targets.extend(stay.map(|next| (next, scene.times(next).begin)));
+    }
+    // Those that begin first, first: what depends on them has moved along then.
+    targets.sort_by_key(|&(action, _)| (scene.times(action).begin, action));
+    for _ in 0..MOST_ROUNDS {
+        let mut is_done = true;
+        for &(action, target) in &targets {
+            let rest = target - schedule.times().get(action).copied().unwrap_or_default().begin;
+            if rest.ticks().abs() < NEAR {
+                continue;
+            }
+            is_done = false;
+            let next = GestureScene { script: &script, plan: scene.plan };
+            let begin = moved_moment(&next, action, "begin", rest);
+            let mut changes: Vec<AttributeChange<'_>> = vec![begin.change];
+            changes.extend(following_end(&next, action, begin.by));
+            if let Some(changed) = ScriptDraft::of(&script).with(&changes)?.read()? {
+                schedule = Cow::Owned(resolve(&changed, &lengths)?);
+                script = Cow::Owned(changed);
+            }
+        }
+        if is_done {
+            break;
+        }
+    }
+    let draft = ScriptDraft::of(scene.script).becoming(&script);
+    let lanes = actions.iter().filter_map(|&action| scene.lane(action));
+    let draft = mixed(scene, draft, &ActionOrigins::same(scene), lanes)?;
+    draft.finish_with(&lengths, |changed| {
+        actions.iter().try_for_each(|&action| scene.keeps_length(action, changed, action))
+    })
+}
+
+/// Deletes actions with everything in them; comments stay.
+///
+/// # Errors
+///
+/// There is no such action, none is given, or an action that stays refers to one of them, also as `prev`; then none is deleted.
+pub fn delete_clips(
+    scene: &GestureScene<'_>,
+    actions: &[usize],
+    followers: Followers,
+) -> Result<String, GestureRefusal> {
+    let actions = outermost(scene, actions)?;
+    if let [action] = actions[..] {
+        return delete_clip(scene, action, followers);
+    }
+    let elements: Vec<usize> = actions.iter().map(|&action| scene.script.actions()[action].element).collect();
+    if let Some(user) = user_of(scene, &elements) {
+        return refused(format!("{user} depends on what is deleted: change that first"));
+    }
+    let mut kept: Vec<AttributeChange<'_>> = Vec::new();
+    for &action in &actions {
+        let next = scene.script.next_sibling(action).filter(|next| !actions.contains(next));
+        keeps_prev(scene.script, next)?;
+        if followers == Followers::Stay && next.is_some() {
+            // Where the first of those begins that are deleted together.
+            let mut first = action;
+            while let Some(before) =
+                scene.script.before_in_seq(first).filter(|before| actions.contains(before))
+            {
+                first = before;
+            }
+            let by = usual_begin(scene, first) - scene.times(action).end;
+            kept.extend(kept_follower(scene, action, by));
+        }
+    }
+    ScriptDraft::of(scene.script)
+        .with(&kept)?
+        .then(|tree| {
+            let parts: Option<Vec<TextSplices>> =
+                elements.iter().map(|&element| delete(tree, element, AttachedComments::Stay)).collect();
+            TextSplices::joined(parts?)
+        })?
+        .finish()
+}
+
+/// Returns the actions in the order of the text, each once, without those inside of others.
+pub(super) fn outermost(scene: &GestureScene<'_>, actions: &[usize]) -> Result<Vec<usize>, GestureRefusal> {
+    let mut sorted = actions.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    for &action in &sorted {
+        scene.element(action)?;
+    }
+    let (mut outer, mut end): (Vec<usize>, usize) = (Vec::new(), 0);
+    for action in sorted {
+        if action >= end {
+            end = with_children(scene.script, action).end;
+            outer.push(action);
+        }
+    }
+    if outer.is_empty() {
+        return refused("No action is selected");
+    }
+    Ok(outer)
+}

@@ -1,0 +1,76 @@
+//! Names of edits of a script, in a few words, for the history and the undo command.
+
+/// Declares [`ScriptLabel`] from a list of `Name = "text"` lines.
+macro_rules! script_labels {
+    ($($Name:ident = $text:literal,)*) => {
+        /// The name of an edit of a script in the history. Journals have its words.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum ScriptLabel {
+            $(#[doc = $text] $Name,)*
+        }
+
+        impl ScriptLabel {
+            /// All labels.
+            pub const ALL: &[Self] = &[$(Self::$Name),*];
+
+            /// Returns its words.
+            pub const fn text(self) -> &'static str {
+                match self {
+                    $(Self::$Name => $text,)*
+                }
+            }
+        }
+    };
+}
+
+script_labels! {
+    EditScript = "Edit script",
+    Type = "Type",
+    PasteText = "Paste text",
+    DeleteText = "Delete text",
+    ReplaceText = "Replace text",
+    MoveClip = "Move clip",
+    MoveClips = "Move clips",
+    TrimStart = "Trim start",
+    TrimEnd = "Trim end",
+    ChangeFade = "Change fade",
+    ChangeSpeed = "Change speed",
+    ChangeRepeat = "Change repeat",
+    ChangeValue = "Change value",
+    ChooseTake = "Choose take",
+    AddClip = "Add clip",
+    AddShot = "Add shot",
+    AddRole = "Add role",
+    AddProp = "Add prop",
+    AddCamera = "Add camera",
+    AddLight = "Add light",
+    AddEffect = "Add effect",
+    AddPath = "Add path",
+    AddMark = "Add mark",
+    AddSound = "Add sound",
+    AddFiles = "Add files",
+    AddAction = "Add action",
+    Duplicate = "Duplicate",
+    Paste = "Paste",
+    Delete = "Delete",
+    Rename = "Rename",
+    MoveThing = "Move thing",
+    MovePoint = "Move point",
+    DropToGround = "Drop to the ground",
+    TurnThing = "Turn thing",
+    ScaleThing = "Scale thing",
+    MoveCamera = "Move camera",
+    Attach = "Attach",
+    Detach = "Detach",
+    DrawPath = "Draw path",
+    DrawLine = "Draw line",
+    EraseLine = "Erase line",
+    EditModel = "Edit model",
+}
+
+impl ScriptLabel {
+    /// Returns the label with these words; `None` for those of another version of the program.
+    pub fn of(text: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|label| label.text() == text)
+    }
+}

@@ -1,0 +1,233 @@
+//! A bar that is dragged: moved with the other selected ones, trimmed, faded, stretched.
+
+use super::lane_layout::{SceneBarPart, SceneHit};
+use super::sheet::SceneSheet;
+use super::snap::snapped_time;
+use crate::panels::actions::scene_clips::move_label;
+use crate::panels::drag::{PointerInput, readout};
+use crate::panels::request::Request;
+use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
+use dragonfly_anim::stage::gesture::{
+    FadeEnd, Followers, GestureRefusal, SequenceOrder, in_this_text, move_clips, move_clips_to_lane,
+    set_fade, set_speed, trim_end, trim_start,
+};
+use dragonfly_anim::stage::lanes::{SceneBar, SceneLane};
+use dragonfly_anim::stage::table::element;
+use dragonfly_anim::stage::time::{StageRate, StageTime, TICKS_PER_SECOND};
+use dragonfly_document::edit::ScriptLabel;
+use dragonfly_document::history::Gesture;
+use egui::Ui;
+use glam::Vec2;
+
+/// A bar that is dragged.
+#[derive(Clone, Debug)]
+pub(super) struct HeldBar {
+    base: SceneBase,
+    pub(super) gesture: Gesture,
+    bar: SceneBar,
+    pub(super) part: SceneBarPart,
+    /// The actions that move along, with that of the bar.
+    actions: Vec<usize>,
+    /// Time of the pointer when it was pressed.
+    grabbed: StageTime,
+    /// Name of the thing.
+    name: Box<str>,
+    /// Whether something was sent.
+    pub(super) is_sent: bool,
+    /// Where the edge was brought last.
+    asked: Option<AskedEdge>,
+    /// Why it could not be brought there.
+    refused: Option<GestureRefusal>,
+}
+
+/// Where an edge is brought.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct AskedEdge {
+    time: StageTime,
+    /// Whether Alt is held.
+    alt: bool,
+    followers: Followers,
+    /// The thing to whose lane the bar goes; `None` for its own.
+    onto: Option<Box<str>>,
+}
+
+/// Begins a drag; `Ok(None)` where there is nothing to drag.
+pub(super) fn begin(
+    hit: SceneHit,
+    grabbed: StageTime,
+    sheet: &SceneSheet<'_>,
+) -> Result<Option<HeldBar>, GestureRefusal> {
+    let SceneHit::Bar { lane, action, part } = hit else { return Ok(None) };
+    let Some((lane, bar)) = sheet.lanes.list.get(lane).zip(sheet.lanes.bar_of(action).map(|(_, bar)| bar))
+    else {
+        return Ok(None);
+    };
+    // A part of a bar is dragged alone.
+    let selected = sheet.context.scene_editing.actions();
+    let actions = match part == SceneBarPart::Body && selected.contains(&action) {
+        true => selected.to_vec(),
+        false => vec![action],
+    };
+    let names = actions.iter().filter_map(|&action| Some(&*sheet.lanes.bar_of(action)?.0.name));
+    if let Some(locked) = names.into_iter().find(|name| sheet.context.scene_editing.is_locked(name)) {
+        return Err(GestureRefusal(format!("{locked} is locked")));
+    }
+    let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene))?;
+    for own in actions.iter().filter_map(|&action| base.script.actions().get(action)) {
+        in_this_text(base.script.tree(), own.element)?;
+    }
+    let gesture = sheet.context.new_gesture();
+    Ok(Some(HeldBar {
+        base,
+        gesture,
+        bar: bar.clone(),
+        part,
+        actions,
+        grabbed,
+        name: lane.name.clone(),
+        is_sent: false,
+        asked: None,
+        refused: None,
+    }))
+}
+
+impl HeldBar {
+    /// Returns the actions that are selected while this bar is dragged, the active one last.
+    pub(super) fn selection(&self) -> Vec<usize> {
+        let others = self.actions.iter().copied().filter(|&action| action != self.bar.action);
+        others.chain([self.bar.action]).collect()
+    }
+
+    /// Follows the pointer.
+    pub(super) fn moved(
+        &mut self,
+        ui: &Ui,
+        at: Vec2,
+        input: &PointerInput,
+        sheet: &SceneSheet<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let context = sheet.context;
+        let pointer = StageTime::from_seconds(f64::from(sheet.scale.time_at(at.x)));
+        let by = pointer - self.grabbed;
+        let edge = match self.part {
+            SceneBarPart::Body | SceneBarPart::Start => self.bar.begin + by,
+            SceneBarPart::End => self.bar.end + by,
+            SceneBarPart::FadeIn => self.bar.begin + self.bar.fade_in + by,
+            SceneBarPart::FadeOut => self.bar.end - self.bar.fade_out + by,
+        };
+        let rate = self.base.script.rate();
+        let reach = StageTime::from_seconds(f64::from(sheet.scale.seconds(6.0)));
+        let snaps = context.keys.snap() != input.modifiers.command;
+        let edge = match snaps {
+            true => snapped_time(edge, sheet.lanes, &self.actions, context.scene_time(), reach, rate),
+            false => at_five_decimals(edge),
+        };
+        let edge = edge.max(StageTime::ZERO);
+        let followers =
+            if context.scene_editing.ripple() == input.ripple { Followers::Stay } else { Followers::Follow };
+        let asked = AskedEdge { time: edge, alt: input.modifiers.alt, followers, onto: self.onto(at, sheet) };
+        // A movement within the same frame changes nothing.
+        if self.asked.as_ref() != Some(&asked) {
+            requests.extend(self.bring_to(&asked));
+            self.asked = Some(asked);
+        }
+        let pointer = egui::pos2(at.x, at.y);
+        match &self.refused {
+            None => readout(ui, pointer, &self.amounts(edge, rate)),
+            Some(refusal) => readout(ui, pointer, &refusal.to_string()),
+        }
+    }
+
+    /// Returns the thing to whose lane the bar goes with the pointer: one that does such actions, or `None` for its own.
+    fn onto(&self, at: Vec2, sheet: &SceneSheet<'_>) -> Option<Box<str>> {
+        let kinds = element(self.bar.kind).map_or(&[][..], |row| row.who);
+        let is_other = |lane: &&SceneLane| *lane.name != *self.name && kinds.contains(&lane.kind);
+        let lane = sheet.layout.lane_at(at.y - sheet.canvas.top() + sheet.scroll)?;
+        let lane = sheet.lanes.list.get(lane).filter(is_other)?;
+        let may = self.part == SceneBarPart::Body && self.bar.kind != "shot";
+        may.then(|| lane.name.clone())
+    }
+
+    /// Returns the request that brings the dragged part to an edge; `None` where it is refused.
+    fn bring_to(&mut self, asked: &AskedEdge) -> Option<Request> {
+        let (label, result) = self.gesture_to(asked);
+        let (text, refused) = result.map_or_else(|refusal| (None, Some(refusal)), |text| (Some(text), None));
+        self.refused = refused;
+        let from = std::sync::Arc::clone(self.base.text());
+        let change = ScriptChange { from, text: text?, label, gesture: Some(self.gesture) };
+        self.is_sent = true;
+        Some(Request::Scene(SceneRequest::Text(change)))
+    }
+
+    /// Returns the label and the text of the gesture that brings the dragged part to an edge.
+    fn gesture_to(&self, asked: &AskedEdge) -> (ScriptLabel, Result<String, GestureRefusal>) {
+        let (scene, action) = (self.base.scene(), self.bar.action);
+        let AskedEdge { time: edge, alt, followers, onto } = asked;
+        let (edge, followers, by) = (*edge, *followers, *edge - self.bar.begin);
+        match self.part {
+            SceneBarPart::Body => {
+                let order = if *alt { SequenceOrder::Keep } else { SequenceOrder::Change };
+                let moved = match onto {
+                    Some(onto) => move_clips_to_lane(&scene, &self.actions, by, onto, followers),
+                    None => move_clips(&scene, &self.actions, by, order, followers),
+                };
+                (move_label(&self.actions), moved)
+            }
+            SceneBarPart::Start => (ScriptLabel::TrimStart, trim_start(&scene, action, edge)),
+            SceneBarPart::End if *alt => {
+                (ScriptLabel::ChangeSpeed, set_speed(&scene, action, self.speed_to(edge)))
+            }
+            SceneBarPart::End => (ScriptLabel::TrimEnd, trim_end(&scene, action, edge, followers)),
+            SceneBarPart::FadeIn => {
+                (ScriptLabel::ChangeFade, set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin))
+            }
+            SceneBarPart::FadeOut => {
+                (ScriptLabel::ChangeFade, set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge))
+            }
+        }
+    }
+
+    /// Returns the speed with which the bar would end at a time.
+    fn speed_to(&self, edge: StageTime) -> f64 {
+        let speed = self
+            .base
+            .script
+            .element(self.bar.action)
+            .value("speed")
+            .and_then(|text| text.parse::<f64>().ok());
+        let (old, new) = ((self.bar.end - self.bar.begin).seconds(), (edge - self.bar.begin).seconds());
+        speed.unwrap_or(1.0) * old / new.max(1e-3)
+    }
+
+    /// Returns the numbers of the drag.
+    fn amounts(&self, edge: StageTime, rate: StageRate) -> String {
+        let (seconds, frame) = (edge.seconds(), rate.nearest_frame(edge));
+        let what = match self.part {
+            SceneBarPart::Body => format!(
+                "begins at {seconds:.3} s, frame {frame}, {:+.3} s",
+                (edge - self.bar.begin).seconds()
+            ),
+            SceneBarPart::Start => format!("starts at {seconds:.3} s, frame {frame}"),
+            SceneBarPart::End => {
+                format!(
+                    "ends at {seconds:.3} s, frame {frame}, lasts {:.3} s",
+                    (edge - self.bar.begin).seconds()
+                )
+            }
+            SceneBarPart::FadeIn => {
+                format!("fades in for {:.3} s", (edge - self.bar.begin).seconds().max(0.0))
+            }
+            SceneBarPart::FadeOut => {
+                format!("fades out for {:.3} s", (self.bar.end - edge).seconds().max(0.0))
+            }
+        };
+        format!("{} · {}: {what}", self.name, self.bar.label)
+    }
+}
+
+/// Returns the nearest time that a script writes with five decimals.
+fn at_five_decimals(time: StageTime) -> StageTime {
+    const STEP: i64 = TICKS_PER_SECOND / 100_000;
+    StageTime::from_ticks((time.ticks() + STEP / 2).div_euclid(STEP) * STEP)
+}
