@@ -113,7 +113,7 @@ impl StageScript {
     ///
     /// # Errors
     ///
-    /// As [`Self::read`]. Errors of shared things are at the end of the text.
+    /// As [`Self::read`]. Those of shared things are in the text of the project: [`StageProject::separated`] finds them.
     pub fn read_of(
         text: impl Into<Arc<str>>,
         project: Option<&StageProject>,
@@ -144,7 +144,7 @@ impl StageScript {
         tree.elements.retain(|element| !element.is_shared);
         let own = tree.elements.len();
         if let Some(project) = &project {
-            tree.elements.extend(project.shared_things(tree.text.len()));
+            tree.elements.extend(project.shared_things());
         }
         let root = &tree.elements[0];
         let of_project = |name: &str| project.as_ref()?.tree().elements()[0].value(name);

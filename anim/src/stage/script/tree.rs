@@ -31,7 +31,7 @@ pub struct ScriptElement {
     pub range: Range<usize>,
     /// Bytes of its name in the start tag.
     pub name: Range<usize>,
-    /// Whether it is of the project that the script belongs to. Its bytes are the end of the script's text then.
+    /// Whether it is of the project that the script belongs to. Its bytes are none of the script's text then.
     pub is_shared: bool,
     /// Its attributes, in the order of the text. Those of other namespaces are left out.
     pub attributes: Vec<ScriptAttribute>,
