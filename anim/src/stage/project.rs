@@ -27,7 +27,7 @@
 //! them is above its folder. Changes of a project are splices of its text ([`crate::stage::splice`]), as those of scripts are.
 
 use super::script::{
-    ElementOrigin, ErrorList, ScriptElement, ScriptError, ScriptTree, read_tree, suggestion,
+    ElementOrigin, ErrorList, SHARED, ScriptElement, ScriptError, ScriptTree, read_tree, suggestion,
 };
 use super::table::{ElementGroup, PROJECTS};
 use super::time::StageRate;
@@ -143,19 +143,39 @@ impl StageProject {
         things.filter_map(|thing| Some((thing.row.name, thing.value("id")?)))
     }
 
-    /// Returns the things of its cast for a script, with their bytes at `end`, the end of the script's text.
-    pub(super) fn shared_things(&self, end: usize) -> impl Iterator<Item = ScriptElement> {
+    /// Returns the things of its cast for a script, with [`SHARED`] added to their bytes.
+    pub(super) fn shared_things(&self) -> impl Iterator<Item = ScriptElement> {
         let things = self.tree.elements().iter().filter(|element| element.row.group == ElementGroup::Thing);
         things.map(move |thing| {
             let mut thing = thing.clone();
             (thing.parent, thing.origin) = (None, ElementOrigin::Project);
-            (thing.range, thing.name) = (end..end, end..end);
-            for attribute in &mut thing.attributes {
-                (attribute.range, attribute.name) = (end..end, end..end);
-                attribute.value_range = end..end;
+            let ranges = thing
+                .attributes
+                .iter_mut()
+                .flat_map(|own| [&mut own.range, &mut own.name, &mut own.value_range]);
+            for range in ranges.chain([&mut thing.range, &mut thing.name]) {
+                (range.start, range.end) = (range.start + SHARED, range.end + SHARED);
             }
             thing
         })
+    }
+
+    /// Separates the errors of a script of this project: those of its own text, and those of the shared cast, with their places in the text of
+    /// the project.
+    pub fn separated(&self, errors: Vec<ScriptError>) -> (Vec<ScriptError>, Vec<ScriptError>) {
+        let (shared, own): (Vec<ScriptError>, _) =
+            errors.into_iter().partition(|error| error.range.start >= SHARED);
+        let placed = |error: ScriptError| {
+            let range = error.range.start - SHARED..error.range.end - SHARED;
+            ScriptError { place: self.tree.place(range.start), range, ..error }
+        };
+        (own, shared.into_iter().map(placed).collect())
+    }
+
+    /// Returns the position in [`Self::tree`] of an element that a script shares with the project; `None` for one of the script itself.
+    pub fn element_of(&self, shared: &ScriptElement) -> Option<usize> {
+        let start = shared.range.start.checked_sub(SHARED)?;
+        self.tree.elements().iter().position(|element| element.range.start == start)
     }
 
     /// Checks that ids are unique, and that what is named is there.

@@ -4,6 +4,7 @@ use super::Folder;
 use super::adapter::{TextFile, TextFiles};
 use super::job::JobNews;
 use super::project_models::ProjectModels;
+use super::project_notes::ProjectNotes;
 use super::scene_includes::{SceneIncludeNews, SceneIncludes};
 use super::scene_lines::SceneLines;
 use super::scene_model_source::SceneModelSource;
@@ -15,12 +16,9 @@ use dragonfly_anim::stage::script::{ScriptContext, ScriptError, StageScript};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{LiveStage, StageAssets};
 use dragonfly_runtime::Address;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
-
-/// The help for a model whose edits were made for another file.
-const OTHER_FILE: &str = "open the model to choose whether they are applied to it or removed";
 
 /// The scene of a project without a script.
 const EMPTY: &str = "<script version=\"1\"/>";
@@ -98,20 +96,24 @@ impl OpenScene {
         let models = project.as_deref().map(ProjectModels::of);
         let wanted = self.wanted(models.as_ref(), texts);
         self.models.want(wanted, document);
+        let (errors, shared) = self.separated(self.live.errors().to_vec());
+        let (notes, shared_notes) = self.separated(self.notes());
+        let project_notes = shared_notes.into_iter().chain(self.project_notes(models.as_ref()));
         self.view = Arc::new(SceneView {
             text,
             name,
             texts: texts.clone(),
             project: self.project.clone(),
             project_errors: self.project_errors.as_slice().into(),
-            project_notes: self.project_notes(models.as_ref()).into(),
+            shared_errors: shared.into(),
+            project_notes: project_notes.collect(),
             lines: self.lines.lines.clone(),
             line_errors: Arc::clone(&self.lines.errors),
             includes: context.files,
             script: self.live.script().cloned(),
             plan: self.live.plan().cloned(),
-            errors: self.live.errors().into(),
-            notes: self.notes().into(),
+            errors: errors.into(),
+            notes: notes.into(),
             models: Arc::clone(self.models.shown()),
         });
     }
@@ -206,6 +208,14 @@ impl OpenScene {
         })
     }
 
+    /// Separates errors of the text of the script from those of the cast that it shares with its project.
+    fn separated(&self, errors: Vec<ScriptError>) -> (Vec<ScriptError>, Vec<ScriptError>) {
+        match &self.project {
+            Some(project) => project.separated(errors),
+            None => (errors, Vec::new()),
+        }
+    }
+
     /// Returns the models that the script names, each with its source.
     fn wanted(
         &self,
@@ -242,32 +252,7 @@ impl OpenScene {
     /// applied.
     fn project_notes(&self, models: Option<&ProjectModels<'_>>) -> Vec<ScriptError> {
         let Some((project, models)) = self.project.as_ref().zip(models) else { return Vec::new() };
-        let (mut notes, mut known) = (Vec::new(), HashSet::new());
-        for (name, source, file) in self.models.read() {
-            // A script may mean one model by its id and by its file.
-            let Some(model) = models.model(name).filter(|model| known.insert(model.range.start)) else {
-                continue;
-            };
-            let edits = source.edits.as_ref();
-            let is_other = edits.is_some_and(|edits| !edits.are_of(file.hash));
-            let now = format!("{:016x}", file.hash);
-            if model.value("hash").is_some_and(|old| old != now) && !is_other {
-                let id = model.value("id").unwrap_or(name);
-                let message =
-                    format!("the file of \"{id}\" changed since it was used last: its hash is {now}");
-                let help = "look at its takes; it is noted with the next edits of the model";
-                notes.push(project.tree().error(model.value_range("hash"), message, help));
-            }
-            let Some(unfit) = &file.unfit else { continue };
-            let (range, help) = match (is_other, models.edits_of(model)) {
-                (true, _) => (model.value_range("hash"), OTHER_FILE),
-                (false, Some(edits)) => (edits.value_range("src"), ""),
-                (false, None) => (model.name.clone(), ""),
-            };
-            notes.push(project.tree().error(range, unfit.clone(), help));
-        }
-        notes.sort_by_key(|note| note.range.start);
-        notes
+        ProjectNotes::of(project, models, self.models.read()).all()
     }
 }
 

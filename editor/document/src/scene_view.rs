@@ -22,6 +22,8 @@ pub struct SceneView {
     pub project: Option<Arc<StageProject>>,
     /// The errors of the newest text of the project, in its order.
     pub project_errors: Arc<[ScriptError]>,
+    /// The errors that the script finds in the cast of the project, in the order of the project's text.
+    pub shared_errors: Arc<[ScriptError]>,
     /// Notes for the user about the models of the project, in the order of its text: files that changed since their edits were
     /// made, edits that do not fit.
     pub project_notes: Arc<[ScriptError]>,
@@ -56,8 +58,8 @@ pub enum SceneModel {
 }
 
 impl SceneView {
-    /// Returns whether what plays is the newest text.
+    /// Returns whether what plays is the newest text, with the cast of the newest project.
     pub fn is_current(&self) -> bool {
-        self.errors.is_empty() && self.plan.is_some()
+        self.errors.is_empty() && self.shared_errors.is_empty() && self.plan.is_some()
     }
 }

@@ -110,6 +110,18 @@ impl SoundSource {
         self.read(|reader| SoundSamples::read(reader, &|| cancel.is_cancelled()))
     }
 
+    /// Checks that the sound can be read: its format, and its first samples.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Self::peaks`].
+    pub(super) fn check(&self) -> Result<(), String> {
+        self.read(|reader| match reader.next_block()? {
+            Some(_) => Ok(()),
+            None => Err("it has no samples".to_owned()),
+        })
+    }
+
     fn read<T>(&self, read: impl FnOnce(&mut SoundReader) -> Result<T, String>) -> Result<T, String> {
         let (name, file) = match self {
             Self::File(path) => {

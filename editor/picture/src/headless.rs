@@ -10,6 +10,7 @@ use crate::camera::Camera;
 use crate::playback::PlaybackClock;
 use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::{LoadedModel, SceneView};
 use image::RgbaImage;
 use std::sync::Arc;
@@ -24,6 +25,8 @@ pub struct PictureSettings {
     pub take: Option<usize>,
     /// Time in the take, seconds, clamped to the take; of a scene, any time.
     pub time: f32,
+    /// Exact time of a scene, in place of [`Self::time`].
+    pub moment: Option<StageTime>,
     /// Yaw of the camera, radians; 0 from the front.
     pub yaw: f32,
     /// Pitch of the camera, radians; positive from above.
@@ -48,6 +51,7 @@ impl Default for PictureSettings {
             size: [1024, 768],
             take: Some(0),
             time: 0.0,
+            moment: None,
             yaw: camera.yaw,
             pitch: camera.pitch,
             camera: None,
@@ -223,6 +227,9 @@ impl Studio {
             None => {}
         }
         scene.playback = playback.seek(settings.time, now);
+        if let (Some(StudioSubject::Scene(_)), Some(moment)) = (&self.shown, settings.moment) {
+            scene.playback.anchor_time = moment.seconds();
+        }
         scene.prepare(now);
         let camera = settings.camera.unwrap_or_else(|| self.framing(settings, true));
         self.stage.scene.camera = camera;

@@ -7,7 +7,7 @@ use super::run_command::RunCommand;
 use super::table::count;
 use super::take_lint::{TakeDefect, defects};
 use dragonfly_anim::check::{RULES, Severity, check};
-use dragonfly_document::{Cancel, SceneLoadError, TakeThresholds, is_scene, load_scene};
+use dragonfly_document::{Cancel, CheckedText, TakeThresholds, check_scene, is_project, is_scene};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ use std::path::PathBuf;
 #[command(about = about(), long_about = None, after_help = "\
 Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
 Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher, or with --takes, a take has a defect.\n\n\
-A scene (.xml) or project (.meproj) is checked with the models that it names; findings have line and column.\n\n\
+A scene (.xml) or project (.meproj) is checked with the models, sounds and scripts that it names; findings have line and column.\n\n\
 With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, joint_limit,\n\
 loop_gap (off), spare_keys and outside. A figure of more than 20 m is taken to be in centimeters or millimeters. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
 \"up\": \"y\", \"floor_height\": 0, \"rate\": 30, \"joints\": {\"Knee.L\": {\"hinge\": {\"axis\": \"x\", \"range\": [0, 150]}}}}; null switches a\n\
@@ -124,6 +124,9 @@ struct CheckReport {
 struct FindingRow {
     severity: &'static str,
     rule: &'static str,
+    /// The text of a project that has it; absent for other files.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
     place: String,
     text: String,
 }
@@ -131,7 +134,7 @@ struct FindingRow {
 impl CheckReport {
     fn of(file: &std::path::Path, deny: Deny, thresholds: Option<&TakeThresholds>) -> Result<Self, Failure> {
         if is_scene(file) {
-            return Self::of_script(file, deny);
+            return Self::of_scene(file, deny);
         }
         let loaded = load_checked(&source(file))?;
         let takes = thresholds.map(|thresholds| defects(&loaded.model.animation, thresholds)).transpose()?;
@@ -148,7 +151,7 @@ impl CheckReport {
                 .map(|thresholds| thresholds.unit_of(&loaded.model.animation.skeleton)),
         };
         if let Some(text) = unknown {
-            let row = FindingRow { severity: "", rule: "JOINTS", place: String::new(), text };
+            let row = FindingRow { severity: "", rule: "JOINTS", file: None, place: String::new(), text };
             report.add(deny, Severity::Warning, row);
         }
         let imported = loaded.warnings.into_iter().chain(loaded.notes);
@@ -156,13 +159,14 @@ impl CheckReport {
             report.add(
                 deny,
                 Severity::Warning,
-                FindingRow { severity: "", rule: "IMPORT", place: String::new(), text },
+                FindingRow { severity: "", rule: "IMPORT", file: None, place: String::new(), text },
             );
         }
         for finding in check(&loaded.model) {
             let row = FindingRow {
                 severity: "",
                 rule: finding.rule,
+                file: None,
                 place: finding.path.to_string(),
                 text: finding.text,
             };
@@ -171,30 +175,27 @@ impl CheckReport {
         Ok(report)
     }
 
-    /// Checks the script of a scene with the models that it names. What is wrong with it are findings with line and column.
-    fn of_script(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
-        let (title, errors, notes, warnings) = match load_scene(file, &Cancel::default()) {
-            Ok(scene) => (scene.title, Vec::new(), scene.plan.schedule().notes().to_vec(), scene.warnings),
-            Err(SceneLoadError::Script { title, errors }) => (title, errors, Vec::new(), Vec::new()),
-            Err(
-                error @ (SceneLoadError::Text(_)
-                | SceneLoadError::Unread(_)
-                | SceneLoadError::NoScript
-                | SceneLoadError::Cancelled),
-            ) => {
-                return Err(error.into());
-            }
-        };
+    /// Checks all texts of a scene with the models and sounds that they name. What is wrong are findings with line and column; those of a
+    /// project name their file.
+    fn of_scene(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
+        let checked = check_scene(file, &Cancel::default())?;
+        let title = checked.first().map(|text| text.name.to_string()).unwrap_or_default();
         let mut report = Self { file: title, ..Self::default() };
-        for text in warnings {
-            let row = FindingRow { severity: "", rule: "EDITS", place: String::new(), text };
-            report.add(deny, Severity::Warning, row);
-        }
-        let errors = errors.into_iter().map(|error| (Severity::Error, error));
-        for (severity, error) in errors.chain(notes.into_iter().map(|note| (Severity::Note, note))) {
-            let text = error.sentence();
-            let place = error.inside.map_or_else(|| error.place.to_string(), |inside| inside.to_string());
-            report.add(deny, severity, FindingRow { severity: "", rule: "SCRIPT", place, text });
+        for CheckedText { name, errors, unfit, notes } in checked {
+            let lists = [
+                (Severity::Error, "SCRIPT", errors),
+                (Severity::Warning, "EDITS", unfit),
+                (Severity::Note, "SCRIPT", notes),
+            ];
+            for (severity, rule, list) in lists {
+                for error in list {
+                    let text = error.sentence();
+                    let place =
+                        error.inside.map_or_else(|| error.place.to_string(), |inside| inside.to_string());
+                    let file = is_project(file).then(|| name.to_string());
+                    report.add(deny, severity, FindingRow { severity: "", rule, file, place, text });
+                }
+            }
         }
         Ok(report)
     }
@@ -222,8 +223,9 @@ impl CheckReport {
         if let Some(meters) = self.meters_per_unit.filter(|meters| *meters != 1.0) {
             writeln!(out, "  motion is measured with 1 unit = {meters} m")?;
         }
-        for FindingRow { severity, rule, place, text } in &self.findings {
-            let place = if place.is_empty() { String::new() } else { format!("{}: ", plain(place)) };
+        for FindingRow { severity, rule, file, place, text } in &self.findings {
+            let file = file.as_ref().map(|file| format!("{}:", plain(file))).unwrap_or_default();
+            let place = if place.is_empty() { String::new() } else { format!("{file}{}: ", plain(place)) };
             writeln!(out, "  {severity}: {place}{} ({rule})", plain(text))?;
         }
         self.takes.iter().flatten().try_for_each(|defect| defect.write(out))

@@ -33,6 +33,7 @@ mod stdio;
 mod table;
 mod take_lint;
 mod takes;
+mod time_argument;
 
 pub use failure::{Failure, tell};
 

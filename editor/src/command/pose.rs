@@ -1,12 +1,13 @@
 //! `dragonfly pose FILE --time S`: prints the pose of every bone and vertex at a time.
 
 use super::Failure;
-use super::choice::{File, TakeChoice, clamp_time, finite};
+use super::choice::{File, TakeChoice, clamp_time};
 use super::info::named;
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::scene::{self, RolePoses};
 use super::table::{Side, Table};
+use super::time_argument::TimeArgument;
 use dragonfly_anim::data::{ModelData, Transform};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::joint::EulerOrder;
@@ -28,9 +29,9 @@ pub(super) struct PoseArguments {
     file: File,
     #[command(flatten)]
     take: TakeChoice,
-    /// Time in seconds, clamped to the take; repeat for more poses
-    #[arg(long, value_name = "S", required = true, value_parser = finite, allow_negative_numbers = true)]
-    time: Vec<f32>,
+    /// Time in seconds, clamped to the take; of a scene exactly as its script writes times, such as 36f; repeat for more poses
+    #[arg(long, value_name = "S", required = true, allow_negative_numbers = true)]
+    time: Vec<TimeArgument>,
     /// Role, prop or another thing of a scene, by its id; FILE is a scene (.xml) or a project (.meproj)
     #[arg(long, value_name = "ID", conflicts_with_all = ["take", "vertices"])]
     role: Option<String>,
@@ -60,8 +61,8 @@ impl RunCommand for PoseArguments {
             return Err(Failure::input(&loaded.title, reason));
         }
         let mut poses = Vec::with_capacity(self.time.len());
-        for &time in &self.time {
-            let time = clamp_time(&model, take, time);
+        for time in &self.time {
+            let time = clamp_time(&model, take, time.of_take()?);
             evaluator.pose(take, time);
             let pose = PoseRow::of(&evaluator, time, vertices);
             // JSON cannot represent infinity or NaN.

@@ -3,6 +3,7 @@
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
 use super::run_command::RunCommand;
 use super::scene::{self, FrameRange, ShotChoice};
+use super::time_argument::TimeArgument;
 use super::{Failure, output, quiet, tell};
 use dragonfly_document::LoadedModel;
 use dragonfly_picture::{GraphicsError, PictureSettings, Studio};
@@ -23,9 +24,9 @@ pub(super) struct RenderArguments {
     file: File,
     #[command(flatten)]
     take: TakeChoice,
-    /// Time in seconds, clamped to the take [default: its start]
-    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
-    time: Option<f32>,
+    /// Time in seconds, clamped to the take; of a scene exactly as its script writes times, such as 36f [default: the start]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    time: Option<TimeArgument>,
     /// Frames of a scene, the first and the last, in place of a time; `-o out.png` writes out-0000.png and so on
     #[arg(long, value_name = "A..B", conflicts_with = "time")]
     frames: Option<FrameRange>,
@@ -94,7 +95,7 @@ impl RunCommand for RenderArguments {
         quiet::about_wayland();
         if let Some(script) = self.file.scene(&self.take)? {
             let order = scene::RenderOrder {
-                time: self.time.unwrap_or(0.0),
+                time: self.time.as_ref(),
                 frames: self.frames,
                 camera: self.camera.unwrap_or_default(),
                 output: &self.output,
@@ -111,7 +112,8 @@ impl RunCommand for RenderArguments {
         let loaded = self.file.load()?;
         tell_warnings(&loaded.title, &loaded.warnings);
         let take = self.take.index(&loaded.title, &loaded.model)?;
-        let time = clamp_time(&loaded.model, take, self.time.unwrap_or(f32::MIN));
+        let time = self.time.as_ref().map_or(Ok(f32::MIN), TimeArgument::of_take)?;
+        let time = clamp_time(&loaded.model, take, time);
         let picture = draw(loaded, take, time, &self.view)?;
         output::write_file(&self.output, &picture)?;
         if self.output != *"-" {

@@ -23,6 +23,7 @@ pub(in crate::stage) use error::ErrorList;
 pub use error::{MOST_ERRORS, ScriptError};
 pub use included::{IncludedScripts, MOST_INCLUDES, MissingScript, ScriptContext};
 use origin::IncludedPart;
+pub(in crate::stage) use origin::SHARED;
 pub use origin::{ElementOrigin, IncludedPlace};
 pub(in crate::stage) use read::read_tree;
 pub use read::{MOST_BYTES, MOST_DEPTH, MOST_NODES};
@@ -111,7 +112,7 @@ impl StageScript {
     ///
     /// # Errors
     ///
-    /// As [`Self::read`]. Errors of shared things are at the end of the text.
+    /// As [`Self::read`]. Those of shared things are in the text of the project: [`StageProject::separated`] finds them.
     pub fn read_of(
         text: impl Into<Arc<str>>,
         project: Option<&StageProject>,
@@ -151,7 +152,7 @@ impl StageScript {
         tree.elements.retain(ScriptElement::is_own);
         tree.parts = Arc::default();
         if let Some(project) = &context.project {
-            tree.elements.extend(project.shared_things(tree.text.len()));
+            tree.elements.extend(project.shared_things());
         }
         let wrong = merge::merge(&mut tree, &context);
         if !wrong.is_empty() {

@@ -11,6 +11,9 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// Added to the bytes of what a script shares with its project: more than all texts have, so that no byte of another one is meant.
+pub(in crate::stage) const SHARED: usize = 1 << 30;
+
 /// Where an element of a script is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ElementOrigin {
@@ -64,8 +67,11 @@ pub(in crate::stage) struct IncludedPart {
 }
 
 impl IncludedPart {
-    /// Returns the part with a byte; `None` for a byte of the text itself.
+    /// Returns the part with a byte; `None` for a byte of the text itself, or of its project.
     pub(super) fn at(parts: &[Self], at: usize) -> Option<&Self> {
+        if at >= SHARED {
+            return None;
+        }
         parts[..parts.partition_point(|part| part.base <= at)].last()
     }
 

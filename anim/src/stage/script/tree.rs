@@ -32,7 +32,7 @@ pub struct ScriptElement {
     pub range: Range<usize>,
     /// Bytes of its name in the start tag.
     pub name: Range<usize>,
-    /// Where it is written. Only those that the text itself has can be changed in it.
+    /// Where it is written. Only those that the text itself has can be changed in it, and only their bytes are bytes of it.
     pub origin: ElementOrigin,
     /// Its attributes, in the order of the text. Those of other namespaces are left out.
     pub attributes: Vec<ScriptAttribute>,

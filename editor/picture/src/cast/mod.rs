@@ -186,7 +186,11 @@ impl PosedScene {
 
     /// Computes the scene at `seconds`. Allocates nothing; at the time computed last, it does nothing.
     pub fn pose(&mut self, seconds: f64) {
-        let time = self.plan.rate().time_of(seconds);
+        // A clock of single precision means the frame that it is nearest to; any other time is exact.
+        let time = match f64::from(seconds as f32) == seconds {
+            true => self.plan.rate().time_of(seconds),
+            false => StageTime::from_seconds(seconds),
+        };
         if self.at == Some(time) {
             return;
         }

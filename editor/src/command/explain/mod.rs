@@ -3,9 +3,10 @@
 mod json;
 
 use super::Failure;
-use super::choice::{File, TakeChoice, clamp_time, finite, plain};
+use super::choice::{File, TakeChoice, clamp_time, plain};
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
+use super::time_argument::TimeArgument;
 use dragonfly_anim::data::{BoneIndex, ModelData};
 use dragonfly_anim::explain::{ExplainTarget, explain};
 use json::ExplainedDocument;
@@ -27,8 +28,8 @@ pub(super) struct ExplainArguments {
     #[command(flatten)]
     take: TakeChoice,
     /// Time in seconds, clamped to the take
-    #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
-    time: f32,
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    time: TimeArgument,
     /// Bone, by name or by index from 0; a name has priority over an index
     #[arg(long, value_name = "BONE", group = "what", allow_hyphen_values = true)]
     bone: Option<String>,
@@ -51,7 +52,7 @@ impl RunCommand for ExplainArguments {
         let loaded = self.file.load()?;
         let take = self.take.index(&loaded.title, &loaded.model)?;
         let what = self.what(&loaded.title, &loaded.model)?;
-        let time = clamp_time(&loaded.model, take, self.time);
+        let time = clamp_time(&loaded.model, take, self.time.of_take()?);
         let explanation =
             explain(&loaded.model, take, time, what).map_err(|error| Failure::input(&loaded.title, error))?;
         let document = ExplainedDocument::of(&loaded, &explanation);

@@ -1,8 +1,8 @@
 //! Poses of a thing of a scene at given times: `dragonfly pose SCENE.xml --role ID --time S`.
 
 use crate::command::Failure;
+use crate::command::time_argument::TimeArgument;
 use dragonfly_anim::fast::matrix::mat4;
-use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::LoadedScene;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -38,12 +38,16 @@ struct SceneBoneRow {
 }
 
 impl RolePoses {
-    /// Computes the poses of the thing called `role` at `times` in seconds.
+    /// Computes the poses of the thing called `role` at `times`.
     ///
     /// # Errors
     ///
     /// The scene has no such thing.
-    pub(in crate::command) fn of(scene: &LoadedScene, role: &str, times: &[f32]) -> Result<Self, Failure> {
+    pub(in crate::command) fn of(
+        scene: &LoadedScene,
+        role: &str,
+        times: &[TimeArgument],
+    ) -> Result<Self, Failure> {
         let plan = &scene.plan;
         let Some(thing) = plan.thing_called(role) else {
             let names: Vec<&str> = plan.things().iter().map(|thing| &*thing.id).collect();
@@ -51,8 +55,8 @@ impl RolePoses {
             return Err(Failure::input(&scene.title, reason));
         };
         let mut shown = plan.new_scene();
-        let poses = times.iter().map(|&time| {
-            plan.scene_at(StageTime::from_seconds(f64::from(time)), &mut shown);
+        let poses = times.iter().map(|time| {
+            plan.scene_at(time.of_scene(plan.rate()), &mut shown);
             let state = &shown.things[thing];
             let to_scene = state.transform.to_matrix();
             let model = plan.things()[thing].model.as_ref();

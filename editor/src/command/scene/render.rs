@@ -1,8 +1,10 @@
 //! Images of a scene: `dragonfly render SCENE.xml --time S --camera ID`.
 
 use crate::command::render::{RenderView, png, refusal, studio, tell_warnings};
+use crate::command::time_argument::TimeArgument;
 use crate::command::{Failure, output, tell};
 use dragonfly_anim::stage::StagePlan;
+use dragonfly_anim::stage::time::StageTime;
 use dragonfly_picture::{Look, PictureSettings, ThroughCamera};
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
@@ -71,8 +73,8 @@ impl ShotChoice {
 
 /// An order to render images of a scene.
 pub(in crate::command) struct RenderOrder<'a> {
-    /// Seconds.
-    pub(in crate::command) time: f32,
+    /// The time; the start of the scene without one.
+    pub(in crate::command) time: Option<&'a TimeArgument>,
     /// Frames in place of the time.
     pub(in crate::command) frames: Option<FrameRange>,
     pub(in crate::command) camera: ShotChoice,
@@ -92,16 +94,17 @@ pub(in crate::command) fn render(script: &Path, order: &RenderOrder<'_>) -> Resu
         return Err(Failure::input("--frames", "several images cannot be written to standard output"));
     }
     let rate = scene.plan.rate();
-    let shots: Vec<(f32, PathBuf)> = match order.frames {
-        None => vec![(order.time, order.output.to_path_buf())],
+    let time = order.time.map_or(StageTime::ZERO, |time| time.of_scene(rate));
+    let shots: Vec<(StageTime, PathBuf)> = match order.frames {
+        None => vec![(time, order.output.to_path_buf())],
         Some(FrameRange { first, last }) => (first..=last)
-            .map(|frame| (rate.frame(i64::from(frame)).seconds() as f32, numbered(order.output, frame)))
+            .map(|frame| (rate.frame(i64::from(frame)), numbered(order.output, frame)))
             .collect(),
     };
     let mut studio = studio()?;
     for (time, path) in &shots {
         let picture = studio
-            .render_scene(&view, &PictureSettings { time: *time, ..settings.clone() })
+            .render_scene(&view, &PictureSettings { moment: Some(*time), ..settings.clone() })
             .map_err(refusal)?;
         tell_warnings(&scene.title, &studio.take_warnings());
         output::write_file(path, &png(&picture)?)?;

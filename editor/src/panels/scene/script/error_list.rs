@@ -23,7 +23,8 @@ pub(super) fn height(scene: &SceneView, panel: f32) -> f32 {
 fn all(scene: &SceneView) -> impl Iterator<Item = (Option<&str>, &ScriptError)> {
     let own = scene.errors.iter().map(|error| (None, error));
     let project = scene.texts.list().first().map_or("", |file| &*file.name);
-    let of_project = scene.project_errors.iter().map(move |error| (Some(project), error));
+    let of_project = scene.project_errors.iter().chain(&*scene.shared_errors);
+    let of_project = of_project.map(move |error| (Some(project), error));
     let lines = scene.project.as_ref().and_then(|project| project.lines()).unwrap_or_default();
     let of_lines = scene.line_errors.iter().map(move |error| (Some(lines), error));
     own.chain(of_project).chain(of_lines)
