@@ -22,7 +22,7 @@ use glam::DVec3;
 /// The other file: everything that gestures change is in it.
 const PART: &str = "<script version=\"1\"><cast><role id=\"ben\" model=\"b.glb\" scale=\"0.01\"/><camera id=\"close\"/>\
     <path id=\"way\" points=\"0 0 0  1 0 0\"/></cast>\n<seq id=\"acts\"><play id=\"x\" who=\"ben\" take=\"Survey\" fade-in=\"0.2\"/>\
-    <place id=\"put\" who=\"ben\" at=\"1 0 0\"/></seq><shot who=\"close\" begin=\"1\"/></script>";
+    <place id=\"put\" who=\"ben\" at=\"1 0 0\"/></seq><shot who=\"close\" begin=\"x.begin+1\"/></script>";
 
 const MAIN: &str = "<script version=\"1\"><cast>\n<role id=\"anna\" model=\"a.glb\" scale=\"0.01\"/>\n<camera id=\"wide\"/>\n</cast>\n\
     <shot who=\"wide\"/>\n<seq>\n<include id=\"in\" src=\"part.xml\"/>\n<play id=\"y\" who=\"anna\" take=\"Run\"/>\n</seq>\n</script>\n";
@@ -144,6 +144,14 @@ fn gestures_on_an_include_and_next_to_it_change_the_script_itself() {
     assert!(text.contains("</seq>\n<play who=\"ben\" take=\"Walk\" begin=\"9\"/>\n</script>"), "{text}");
     let (text, _) = done(cut_to(&scene, "wide", seconds(2.0)));
     assert!(text.contains("</seq>\n<shot who=\"wide\" begin=\"2\"/>\n</script>"), "{text}");
+    // The file refers to its own `x`.
+    let other = MAIN.replace("\"y\"", "\"x\"");
+    let script =
+        including(&other, &[("part.xml", PART)]).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
+    let planned = self::plan(&script);
+    let scene = GestureScene { script: &script, plan: &planned };
+    let text = delete_clip(&scene, script.action_called("x").expect("x"), Followers::Follow);
+    assert_eq!(text, Ok(other.replace("<play id=\"x\" who=\"anna\" take=\"Run\"/>\n", "")));
     // An include that something depends on stays, and so do the things that only it has.
     let shot = MAIN.replace("</seq>", "<shot who=\"close\"/></seq>");
     let script =

@@ -269,6 +269,7 @@ fn errors_of_an_included_file_have_its_places_and_the_bytes_of_the_include() {
         found[0]
     );
     assert_eq!(&outer[found[0].range.clone()], "include");
+    assert_eq!(&inner[found[0].inside.as_ref().unwrap().range.clone()], "Fly");
 }
 
 #[test]
