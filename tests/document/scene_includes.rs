@@ -75,7 +75,10 @@ fn a_script_plays_what_it_includes_with_models_from_the_folder_of_that_and_follo
     let view = document
         .wait_for_view(|view| scene_of(view).errors.first().is_some_and(|error| error.inside.is_none()));
     let error = scene_of(&view).errors[0].text();
-    assert_eq!(error, "parts/intro.xml cannot be read: does not exist; scripts: parts/more.xml");
+    assert_eq!(
+        error,
+        "parts/intro.xml cannot be read: there is no such file; did you mean \"parts/more.xml\"? (scripts: parts/more.xml)"
+    );
     look(&mut document, Some(INTRO.to_owned()));
     document.wait_for_view(|view| length(view) == Some(3.0));
     // One that an included file includes.
@@ -128,7 +131,7 @@ fn a_script_is_packed_with_what_it_includes_and_plays_as_before_where_it_is_unpa
     fs::remove_file(folder.join("parts/more.xml")).expect("a file");
     let Err(PackError::Files(reasons)) = pack(&path, &Cancel::default()) else { panic!("it was packed") };
     assert!(
-        reasons[0].starts_with("parts/intro.xml:5:17: parts/more.xml cannot be read: does not exist"),
+        reasons[0].starts_with("parts/intro.xml:5:17: parts/more.xml cannot be read: there is no such file"),
         "{reasons:?}"
     );
 }
@@ -168,7 +171,7 @@ fn the_protocol_says_in_which_file_an_error_and_an_action_are() {
     let inside = &error["inside"];
     assert_eq!(
         (&inside["file"], &inside["line"], &inside["column"]),
-        (&"parts/intro.xml".into(), &4.into(), &26.into()),
+        (&"parts/intro.xml".into(), &4.into(), &25.into()),
         "{errors}"
     );
 }

@@ -203,5 +203,5 @@ fn errors_of_an_included_script_are_found_with_its_name_line_and_column() {
     );
     fs::remove_file(&intro).expect("a file");
     let printed = run(["check", text(&path)]).expect(1).text().to_owned();
-    assert!(printed.contains("error: 2:17: intro.xml cannot be read: does not exist"), "{printed}");
+    assert!(printed.contains("error: 2:17: intro.xml cannot be read: there is no such file"), "{printed}");
 }
