@@ -44,6 +44,7 @@ mod save_in_background;
 mod save_kept_edits;
 mod save_rewritten;
 mod scene_answers;
+mod scene_includes;
 mod scene_models;
 mod scene_models_kept;
 mod scene_models_later;

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::Path;
 
 /// Opens the script after a kill, with a copy of the journals, and restores the offered work.
-fn restored(path: &Path, autosave: &Path, steps: usize) -> (TestDocument, View) {
+pub(super) fn restored(path: &Path, autosave: &Path, steps: usize) -> (TestDocument, View) {
     let mut document = TestDocument::new(autosave);
     document.open(path);
     let offer = document.wait_for_offers().remove(0);

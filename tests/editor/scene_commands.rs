@@ -170,3 +170,38 @@ fn the_schema_of_scripts_is_printed() {
     assert_eq!(schema, dragonfly_anim::stage::table::schema());
     run(["script"]).expect(2);
 }
+
+#[test]
+fn errors_of_an_included_script_are_found_with_its_name_line_and_column() {
+    let main = "<script version=\"1\">\n  <include src=\"intro.xml\"/>\n</script>\n";
+    let (folder, path) = scene("scene-include", main);
+    let intro = folder.join("intro.xml");
+    fs::write(&intro, SCENE).expect("a file");
+    run(["check", text(&path)]).expect(0);
+    let times = run(["script", text(&path), "--json"]).expect(0).json();
+    assert_eq!(
+        (&times["actions"][3]["file"], &times["actions"][3]["line"]),
+        (&"intro.xml".into(), &9.into())
+    );
+    fs::write(&intro, SCENE.replace("Survey", "Fly")).expect("a file");
+    let found = run(["check", text(&path), "--json"]).expect(1).json();
+    let row = &found[0]["findings"][0];
+    assert_eq!(
+        (&found[0]["file"], &row["place"]),
+        (&"scene.xml".into(), &"intro.xml:10:40".into()),
+        "{found}"
+    );
+    assert!(
+        row["text"].as_str().is_some_and(|text| text.starts_with("\"fox\" has no take \"Fly\"")),
+        "{found}"
+    );
+    let printed = run(["check", text(&path)]).expect(1).text().to_owned();
+    assert!(printed.contains("error: intro.xml:10:40: \"fox\" has no take \"Fly\""), "{printed}");
+    // The included script alone has the same error.
+    assert!(
+        run(["check", text(&intro)]).expect(1).text().contains("error: 10:40: \"fox\" has no take \"Fly\"")
+    );
+    fs::remove_file(&intro).expect("a file");
+    let printed = run(["check", text(&path)]).expect(1).text().to_owned();
+    assert!(printed.contains("error: 2:17: intro.xml cannot be read: there is no such file"), "{printed}");
+}

@@ -1,6 +1,7 @@
 //! Gestures in a timeline: which lines of the text they change, and what the scene is like after them.
 
 use super::actors::{assets, at, bits, fox, fox_script, planned};
+use super::includes::{cut_out, including};
 use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
@@ -343,8 +344,8 @@ fn a_thing_is_dragged_by_its_place_in_the_cast_or_by_the_last_place() {
 fn random_gesture(
     random: &mut Random,
     scene: &GestureScene<'_>,
+    action: usize,
 ) -> (&'static str, Result<String, GestureRefusal>) {
-    let action = 1 + random.below(scene.script.actions().len() - 1);
     let time = seconds(random.below(200) as f64 / 24.0);
     let followers = random.choice(&[Followers::Follow, Followers::Stay]);
     let order = random.choice(&[SequenceOrder::Keep, SequenceOrder::Change]);
@@ -369,18 +370,25 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
     let model = fox();
     let assets: StageAssets = assets(&model);
     let (mut done, mut refused, mut scripts) = (std::collections::BTreeMap::<&str, usize>::new(), 0, 0);
+    let (mut included, mut foreign) = (0, 0);
     let mut at = first;
-    while scripts < 150 {
+    while scripts < 250 {
         at += 1;
         let mut random = Random::new(at);
-        let mut text = random_scripts::script(at);
-        for take in ["PickUp", "Slash", "Idle", "Fall"] {
-            text = text.replace(&format!("\"{take}\""), "\"Survey\"");
-        }
+        // Half of them include a part of themselves.
+        let script = random_scripts::script(at);
+        let cut = (at % 2 == 0).then(|| cut_out(&script, &mut random)).flatten();
+        let (text, part) = cut.map_or((script, None), |(_, include, part)| (include, Some(part)));
+        let with_survey = |text: String| {
+            let takes = ["PickUp", "Slash", "Idle", "Fall"];
+            takes.iter().fold(text, |text, take| text.replace(&format!("\"{take}\""), "\"Survey\""))
+        };
+        let (mut text, part) = (with_survey(text), part.map(with_survey));
+        let files: Vec<(&str, &str)> = part.as_deref().map(|part| ("part.xml", part)).into_iter().collect();
         let original = text.clone();
         let mut inverses: Vec<TextSplice> = Vec::new();
         for _ in 0..12 {
-            let Ok(script) = StageScript::read(text.as_str()) else { break };
+            let Ok(script) = including(&text, &files) else { break };
             let Ok(plan) = StagePlan::new(&script, &assets) else { break };
             let scene = GestureScene { script: &script, plan: &plan };
             let lanes = SceneLanes::new(&script, &plan);
@@ -388,9 +396,17 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
                 lanes.list.iter().all(|lane| lane.bars.iter().all(|bar| bar.row < lane.rows)),
                 "seed {at}"
             );
-            match random_gesture(&mut random, &scene) {
+            let action = 1 + random.below(script.actions().len() - 1);
+            let is_foreign = action < script.actions().len() && script.element(action).is_included();
+            match random_gesture(&mut random, &scene, action) {
                 (name, Ok(new)) => {
-                    let script = StageScript::read(new.as_str())
+                    assert!(
+                        !is_foreign || matches!(name, "cut" | "add"),
+                        "seed {at} {name}: {}",
+                        script.element(action).row.name
+                    );
+                    included += usize::from(part.is_some());
+                    let script = including(&new, &files)
                         .unwrap_or_else(|errors| panic!("seed {at} {name}: {}\n{new}", errors[0]));
                     if let Err(errors) = StagePlan::new(&script, &assets) {
                         panic!("seed {at} {name}: {}\n{text}\n{new}", errors[0]);
@@ -399,8 +415,15 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
                     *done.entry(name).or_default() += 1;
                     text = new;
                 }
-                (_, Err(GestureRefusal(reason))) => {
+                (name, Err(GestureRefusal(reason))) => {
                     assert!(!reason.is_empty() && !reason.ends_with('.'), "{reason}");
+                    if is_foreign && !matches!(name, "cut" | "add") {
+                        assert!(
+                            reason.ends_with(" is in part.xml: open it to change it"),
+                            "seed {at} {name}: {reason}"
+                        );
+                        foreign += 1;
+                    }
                     refused += 1;
                 }
             }
@@ -411,6 +434,9 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
         }
         assert_eq!(text, original, "seed {at}");
     }
-    println!("{done:?}, {refused} refused");
+    println!(
+        "{done:?}, {refused} refused; {included} in scripts that include, {foreign} refused in a file of theirs"
+    );
+    assert!(included > 100 && foreign > 50, "{included} {foreign}");
     assert!(done.len() == 10 && done.values().all(|&count| count > 15), "{done:?}");
 }

@@ -7,6 +7,8 @@ mod followed_paths;
 mod gestures;
 mod gestures_in_projects;
 mod holding;
+mod include_gestures;
+mod includes;
 mod kept_times;
 mod lanes;
 mod lines;

@@ -118,10 +118,12 @@ impl Merging<'_> {
                 // As this include would write them.
                 let folder =
                     self.chain.last().and_then(|name| name.rsplit_once('/')).map_or("", |(folder, _)| folder);
-                let names = missing.beside.iter().filter_map(|name| match folder {
-                    "" => Some(name.as_str()),
-                    folder => name.strip_prefix(folder)?.strip_prefix('/'),
-                });
+                let is_around = |name: &&String| self.chain.iter().any(|other| **other == ***name);
+                let names =
+                    missing.beside.iter().filter(|name| !is_around(name)).filter_map(|name| match folder {
+                        "" => Some(name.as_str()),
+                        folder => name.strip_prefix(folder)?.strip_prefix('/'),
+                    });
                 let help = match missing.beside.is_empty() {
                     true => String::new(),
                     false => suggestion(elements[include].value("src").unwrap_or_default(), "scripts", names),
