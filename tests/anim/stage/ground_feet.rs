@@ -138,7 +138,7 @@ fn footprints_are_on_the_ground() {
     let plan = walk.plan(sheet(30, 20.0, |x, z| 0.3 * x + 0.1 * z * z), "ground=\"mesh\"");
     let walk = plan.path_walks().next().unwrap();
     let prints = plan.footprints_of(walk);
-    assert!(prints.len() > 10, "{}", prints.len());
+    assert!(prints.len() >= 8, "{}", prints.len());
     for print in prints {
         let ground = plan.ground_at(print.position).unwrap();
         assert!((print.position.y - ground).abs() < 1e-9, "{print:?} {ground}");

@@ -47,6 +47,9 @@ const MOST_FEET: usize = 8;
 /// Largest distance by which hips are lowered, as a part of the length of a leg.
 const LOWERED: f32 = 0.15;
 
+/// The same on a mesh, where one foot may stand much lower than the other.
+const LOWERED_ON_MESH: f32 = 0.4;
+
 /// A walk at a time: the motion, and the share of the pose that its take has.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WalkState {
@@ -81,7 +84,10 @@ pub(super) fn keep_feet(
         return;
     }
     let legs = || model.feet().iter().zip(targets).filter_map(|(foot, target)| Some((foot, target?)));
-    let lower = legs().map(|(foot, target)| missing(&foot.limb, &target, &state.to_root)).fold(0.0, f32::max);
+    let on_mesh = standing.mesh().is_some();
+    let most = if on_mesh { LOWERED_ON_MESH } else { LOWERED };
+    let lower =
+        legs().map(|(foot, target)| missing(&foot.limb, &target, most, &state.to_root)).fold(0.0, f32::max);
     if lower > 0.0
         && let Some(hips) = model.hips()
     {
@@ -89,7 +95,6 @@ pub(super) fn keep_feet(
         to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
     }
     let mut turned = [Quat::IDENTITY; MOST_FEET];
-    let on_mesh = standing.mesh().is_some();
     for ((foot, _), turned) in legs().zip(&mut turned).filter(|_| on_mesh) {
         *turned = rotation(&state.to_root, foot.bone);
     }
@@ -135,14 +140,14 @@ fn joint(matrices: &RootPoses, bone: u32) -> Vec3 {
 /// Part of its length that a leg may have between its ends: near its full length, a small movement of the foot is a large one of the knee.
 const STRAIGHT: f32 = 0.995;
 
-/// Returns the distance by which the hips have to be lowered so that a leg reaches its target; 0 where it does, or cannot.
-fn missing(limb: &FastTwoBone, target: &StandingTarget, matrices: &RootPoses) -> f32 {
+/// Returns the distance by which the hips have to be lowered so that a leg reaches its target, at most the part `most` of its length; 0 where it does.
+fn missing(limb: &FastTwoBone, target: &StandingTarget, most: f32, matrices: &RootPoses) -> f32 {
     let [root, middle, end] = [limb.root, limb.middle, limb.end].map(|bone| joint(matrices, bone));
     let length = STRAIGHT * (root.distance(middle) + middle.distance(end));
     let way = root - target.position.as_vec3();
     let height = (length * length - way.x * way.x - way.z * way.z).max(0.0).sqrt();
     let lower = way.y - height;
-    if lower > 0.0 { lower.min(LOWERED * length) * target.weight } else { 0.0 }
+    if lower > 0.0 { lower.min(most * length) * target.weight } else { 0.0 }
 }
 
 /// Moves the hips down, to-root space.
