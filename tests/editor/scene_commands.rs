@@ -106,7 +106,7 @@ fn the_weights_of_the_shape_keys_of_a_role_are_printed() {
     let names: Vec<[&str; 2]> =
         shapes.iter().map(|row| ["mesh", "shape"].map(|name| row[name].as_str().expect("a name"))).collect();
     assert_eq!(names, [["Cube", "Shape 1"], ["Cube", "Shape 2"]]);
-    // At 1.5 s of the take, of which the explanation of a vertex tells the weights.
+    // The weights of a vertex at 1.5 s of the take.
     let order = ["explain", text(&model), "--take", "Square", "--time", "1.5", "--vertex", "0", "--json"];
     let explained = run(order).expect(0).json();
     let weights: Vec<f64> =

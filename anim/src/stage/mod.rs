@@ -89,8 +89,8 @@
 //! # Ground
 //!
 //! `ground="plane"` of a `move` gives its way the height 0, `ground="mesh"` that of the ground props of the cast, which have `ground="yes"`: of several surfaces over each other that of the one
-//! nearest to the height of the way itself, 0 where there is none. What faces down is a ceiling, and what has less than half a meter of room under a ceiling or another surface is no
-//! ground. A ground prop has its place in the cast and the rest pose of its model for this; nothing may move it. Feet that are kept stand on the ground under
+//! nearest to the height of the way itself, 0 where there is none. What faces down is a ceiling; ground has half a meter of room under a ceiling, and no other ground right
+//! over it. A ground prop has its place in the cast and the rest pose of its model for this; nothing may move it. Feet that are kept stand on the ground under
 //! them and lean with it. What is detached with `drop="ground"` falls on the ground below it.
 //!
 //! # Shape keys

@@ -135,7 +135,7 @@ fn a_way_passes_under_a_bridge_over_it_and_over_what_stands_on_a_floor() {
     // Nearer to the floor than to the bridge, and in the middle, where the higher one counts.
     check(&walked("-5 1.4 0  5 1.4 0", &both, vec![floor(), bridge()]), 5.0, 0.0);
     check(&walked("-5 1.5 0  5 1.5 0", &both, vec![floor(), bridge()]), 5.0, 3.0);
-    // A block stands on the floor, or in it, or a hand above it: there is no room below.
+    // A block on the floor, in it, or a hand above it: there is no room below.
     for low in [-1.0, 0.0, 0.1] {
         let block = boxed([-2.0, low, -2.0], [2.0, 9.0, 2.0]);
         let plan = walked("-5 0 0  5 0 0", &both, vec![floor(), block]);

@@ -1,4 +1,4 @@
-//! Feet on ground that is a mesh: they stay where they are, and stand on it.
+//! Feet on ground that is a mesh: they do not slide, and are on it.
 
 use super::actors::{bone, fox, planned, rogue, seconds, thing};
 use super::ground::sheet;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Slope of the ground: the tangent of 15 degrees.
 const SLOPE: f32 = 0.267_949_2;
 
-/// What was measured of the feet of a role on its way, meters.
+/// The feet of a role on its way, measured; meters.
 #[derive(Debug, Default)]
 struct GroundFeet {
     /// Largest distance of a foot in contact from where it was at the start of the contact.

@@ -68,7 +68,7 @@ fn the_picture_of_a_role_is_that_of_the_model_alone_at_that_time() {
         let look = Look { contact_shadow: false, ..settings(ThroughCamera::Free, time).look };
         let settings = PictureSettings {
             look,
-            camera: Some(camera.clone()),
+            camera: Some(camera),
             take: Some(0),
             ..settings(ThroughCamera::Free, time)
         };

@@ -49,7 +49,7 @@ impl GroundColumn {
         }
     }
 
-    /// Returns the surfaces on which one can stand, from the top down.
+    /// Returns the surfaces that are ground, from the top down.
     pub(super) fn ground(&self) -> impl Iterator<Item = &GroundSurface> {
         let all = &self.surfaces[..self.count];
         let stands = |&(at, surface): &(usize, &GroundSurface)| {

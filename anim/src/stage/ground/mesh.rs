@@ -31,7 +31,7 @@ struct GroundNode {
     count: u32,
 }
 
-/// The surface of a model in its rest pose, without triangles that stand vertically.
+/// The surface of a model in its rest pose, without vertical triangles.
 #[derive(Clone, Debug, Default)]
 pub(in crate::stage) struct GroundMesh {
     triangles: Vec<GroundTriangle>,
@@ -123,7 +123,7 @@ fn flat(point: Vec3) -> DVec2 {
     DVec2::new(f64::from(point.x), f64::from(point.z))
 }
 
-/// Returns a triangle; `None` for one that stands vertically, or is a line or a point.
+/// Returns a triangle; `None` for one that is vertical, or is a line or a point.
 fn triangle(corners: [Vec3; 3], is_mirrored: bool) -> Option<GroundTriangle> {
     let [a, b, c] = corners.map(flat);
     // Seen from above, with x to the right and z down, what is counter-clockwise has a negative area.

@@ -1,6 +1,6 @@
-//! Ground that is a mesh: the surfaces of props over a point, and the one on which a way stands.
+//! Ground that is a mesh: the surfaces of props over a point, and the one that a way follows.
 //!
-//! A ground prop stands still: at its place in the cast, in its rest pose. At a point of the ground plane its triangles have a height each. They are
+//! A ground prop does not move: it is at its place in the cast, in its rest pose. At a point of the ground plane its triangles have a height each. They are
 //! cut by the vertical line through the point, in `f64`, with edges that belong to both of their triangles, so that a closed surface has no gaps.
 //!
 //! Of several surfaces over each other, a way chooses in two steps:
@@ -10,7 +10,7 @@
 //!    needs an underside for that: a sheet without one hides what is below it, as a hill does.)
 //! 2. *Height.* Of what is left, the surface nearest to the height of the way itself; the higher of two equally near ones.
 //!
-//! The nearest of all surfaces, without the first step, would let a way that is drawn at height 0 pass through every hill that stands on a floor.
+//! The nearest of all surfaces, without the first step, would let a way that is drawn at height 0 pass through every hill on a floor.
 
 mod column;
 mod mesh;

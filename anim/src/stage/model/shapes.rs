@@ -8,8 +8,8 @@ use std::ops::Range;
 /// The bones of the shape keys of a mesh with a skin.
 type BonesOfMesh = Vec<Option<BoneIndex>>;
 
-/// The shape keys of a model. The weights of all mesh instances are in one list, instance after instance in the order of the model, each with as many
-/// weights as the primitive of its mesh that has the most targets.
+/// The shape keys of a model. The weights of all mesh instances are in one list, in the order of the instances; their number is, for each of them, the
+/// largest number of targets of a primitive of its mesh.
 #[derive(Clone, Debug, Default)]
 pub struct StageShapes {
     /// For each instance with shape keys: its position, and the place of its weights.

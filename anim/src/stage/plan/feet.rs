@@ -47,7 +47,7 @@ const MOST_FEET: usize = 8;
 /// Largest distance by which hips are lowered, as a part of the length of a leg.
 const LOWERED: f32 = 0.15;
 
-/// The same on a mesh, where one foot may stand much lower than the other.
+/// The same on a mesh, where one foot may be much lower than the other.
 const LOWERED_ON_MESH: f32 = 0.4;
 
 /// A walk at a time: the motion, and the share of the pose that its take has.

@@ -1,4 +1,4 @@
-//! Which props of a cast are ground, and what a script may do with them.
+//! The ground props of a cast, and what a script may do with them.
 
 use super::StagePlan;
 use super::bind::StageBinder;

@@ -41,7 +41,7 @@ pub(super) struct PoseMask {
 /// The takes of one layer, in the order of their begins.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PoseLane {
-    /// What it moves; `None`: everything.
+    /// The parts that it moves; `None`: everything.
     pub(super) mask: Option<PoseMask>,
     pub(super) cues: Vec<PoseCue>,
 }

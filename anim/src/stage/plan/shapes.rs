@@ -11,7 +11,7 @@ use crate::stage::time::StageTime;
 /// Sum of shares from which nothing is left for what is below: the remainder is rounding, as in [`crate::fast::blend`].
 const WHOLE: f32 = 1.0 - 1e-6;
 
-/// Writes the weights of the shape keys of a role at `time`. `scratch` has at least as many numbers as `out`. Allocates nothing.
+/// Writes the weights of the shape keys of a role at `time`. `scratch` is not shorter than `out`. Allocates nothing.
 pub(super) fn shape_role(
     model: &StageModel,
     lanes: &[PoseLane],

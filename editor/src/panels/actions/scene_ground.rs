@@ -54,14 +54,14 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
 }
 
 /// Returns the place of a thing of a plan on the ground under or over `place`, nearest to its height: that of the ground props of the cast, else of the plane at 0.
-/// `height` is how much higher than the ground its place is. Ground props themselves stand on the plane.
+/// `height` is how much higher than the ground its place is. For ground props it is always the plane.
 pub(super) fn on_ground(plan: &StagePlan, thing: usize, place: Vec3, height: f32) -> Vec3 {
     let is_ground = plan.things().get(thing).is_some_and(PlannedThing::is_ground);
     let ground = if is_ground { None } else { plan.ground_at(place.as_dvec3()) };
     place.with_y(ground.unwrap_or(0.0) as f32 + height)
 }
 
-/// Returns how much higher than the ground the places of these things of a plan are while they stand on it, meters, by their positions in it: a prop with its lowest point at this time, a role
+/// Returns how much higher than the ground the places of these things of a plan are while they are on it, meters, by their positions in it: a prop with its lowest point at this time, a role
 /// or a mark with its place. None for things in the air, and for paths.
 pub(super) fn heights_on_ground(
     scene: &SceneView,
