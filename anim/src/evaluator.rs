@@ -88,6 +88,11 @@ impl Evaluator {
         self.morph_weights.get(instance).map_or(&[], Vec::as_slice)
     }
 
+    /// As [`Self::morph_weights`], for weights that the takes do not have; the next pose replaces them.
+    pub fn morph_weights_mut(&mut self, instance: usize) -> &mut [f32] {
+        self.morph_weights.get_mut(instance).map_or(&mut [], Vec::as_mut_slice)
+    }
+
     /// Returns the primitives of instance number `instance`, in file order. Empty when there is no such instance or
     /// mesh.
     pub fn primitives(&self, instance: usize) -> &[Primitive] {

@@ -4,11 +4,13 @@
 
 use crate::Section;
 use crate::case::BenchCase;
+use dragonfly_anim::data::{Mesh, MeshInstance, ModelData, Primitive, Vertices};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::stage::schedule::resolve;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan};
+use glam::{Mat4, Vec3};
 use std::fmt::Write;
 use std::hint::black_box;
 use std::path::Path;
@@ -42,6 +44,7 @@ impl StageBench {
 
     fn assets(&self) -> StageAssets {
         let mut assets = StageAssets::default();
+        assets.add_model("hill.glb", Arc::new(StageModel::new(Arc::new(hill()))));
         assets.add_model("a.glb", Arc::clone(&self.model));
         assets
     }
@@ -49,7 +52,7 @@ impl StageBench {
     /// Returns a plan in which each role does `actions` of its own.
     fn plan(&self, actions: impl Fn(usize, &str) -> String) -> StagePlan {
         let mut text = String::from(
-            "<script version=\"1\"><cast><path id=\"p\" curve=\"smooth\" points=\"0 0 0  4 0 0  6 0 3  9 0 3\"/>",
+            "<script version=\"1\"><cast><prop id=\"hill\" model=\"hill.glb\" ground=\"yes\"/><path id=\"p\" curve=\"smooth\" points=\"0 0 0  4 0 0  6 0 3  9 0 3\"/>",
         );
         for role in 0..ROLES {
             let _ = write!(text, "<role id=\"r{role}\" model=\"a.glb\" at=\"{role} 0 0\"/>");
@@ -106,6 +109,14 @@ pub(crate) fn section() -> Section {
                 )
             })
         }),
+        frame("walk on 100,000 triangles", |bench| {
+            bench.plan(|role, who| {
+                let take = &bench.takes[1];
+                format!(
+                    "<move {who} path=\"p\" take=\"{take}\" dur=\"5\" ground=\"mesh\" begin=\"-0.0{role}\"/>"
+                )
+            })
+        }),
         BenchCase::new("stage", format!("read/{ACTIONS}"), 1, "script", || {
             let text: Arc<str> = large_script().into();
             move || drop(black_box(StageScript::read(Arc::clone(&text))))
@@ -117,6 +128,37 @@ pub(crate) fn section() -> Section {
         }),
     ];
     Section { about: Box::new(move || bench().about()), cases }
+}
+
+/// Returns a hilly square of 30 m with 100,352 triangles.
+fn hill() -> ModelData {
+    let cells = 224_u32;
+    let at = |index: u32| (index as f32 / cells as f32 - 0.5) * 30.0;
+    let point = |index: u32| {
+        let [x, z] = [index % (cells + 1), index / (cells + 1)].map(at);
+        Vec3::new(x, 0.3 * x.sin() * z.cos(), z)
+    };
+    let corners = |cell: u32| {
+        let first = cell / cells * (cells + 1) + cell % cells;
+        let below = first + cells + 1;
+        [first, below, first + 1, first + 1, below, below + 1]
+    };
+    let positions: Vec<Vec3> = (0..(cells + 1) * (cells + 1)).map(point).collect();
+    let primitive = Primitive {
+        vertices: Vertices { positions, ..Vertices::default() },
+        indices: (0..cells * cells).flat_map(corners).collect(),
+        ..Primitive::default()
+    };
+    let instance = MeshInstance {
+        mesh: 0,
+        node: None,
+        skin: None,
+        bone: None,
+        to_bone: Mat4::IDENTITY,
+        morph_weights: Vec::new(),
+    };
+    let mesh = Mesh { primitives: vec![primitive], ..Mesh::default() };
+    ModelData { meshes: vec![mesh], instances: vec![instance], ..ModelData::default() }
 }
 
 /// Returns a script whose sequences wait for each other.

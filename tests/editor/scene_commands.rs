@@ -94,6 +94,33 @@ fn a_role_stands_where_its_way_leads_at_each_time() {
 }
 
 #[test]
+fn the_weights_of_the_shape_keys_of_a_role_are_printed() {
+    let cube = SCENE
+        .replace("models/box_sparse.glb", "models/cube.glb")
+        .replace("  <seq>", "  <play who=\"box\" take=\"Square\" from=\"1\"/>\n  <seq>");
+    let (folder, path) = scene("scene-shapes", &cube);
+    let model = folder.join("models/cube.glb");
+    fs::copy(data("gltf/AnimatedMorphCube.glb"), &model).expect("a copy");
+    let poses = run(["pose", text(&path), "--role", "box", "--time", "0.5", "--json"]).expect(0).json();
+    let shapes = poses["poses"][0]["shapes"].as_array().expect("shape keys").clone();
+    let names: Vec<[&str; 2]> =
+        shapes.iter().map(|row| ["mesh", "shape"].map(|name| row[name].as_str().expect("a name"))).collect();
+    assert_eq!(names, [["Cube", "Shape 1"], ["Cube", "Shape 2"]]);
+    // The weights of a vertex at 1.5 s of the take.
+    let order = ["explain", text(&model), "--take", "Square", "--time", "1.5", "--vertex", "0", "--json"];
+    let explained = run(order).expect(0).json();
+    let weights: Vec<f64> =
+        shapes.iter().map(|row| number(&row["weight"])).filter(|weight| *weight != 0.0).collect();
+    let told = explained.to_string();
+    assert!(
+        !weights.is_empty() && weights.iter().all(|weight| told.contains(&weight.to_string())),
+        "{shapes:?} {told}"
+    );
+    let printed = run(["pose", text(&path), "--role", "box", "--time", "0.5"]).expect(0).text().to_owned();
+    assert!(printed.contains("  Cube, shape key Shape 1: "), "{printed}");
+}
+
+#[test]
 fn what_is_wrong_with_a_script_is_listed_with_line_column_and_a_suggestion() {
     let wrong =
         SCENE.replace("take=\"Survey\"", "take=\"Survy\"").replace("models/box_sparse.glb", "models/box.glb");

@@ -1,6 +1,6 @@
 //! Weights of morph targets at one time.
 
-use super::{find_keys, mix};
+use super::{Keys, find_keys, mix};
 use crate::data::{Interpolation, MorphTrack, Take};
 
 /// Samples the weights of the morph targets of instance number `instance` at `time` seconds, into `out` (one per
@@ -10,16 +10,19 @@ use crate::data::{Interpolation, MorphTrack, Take};
 /// [`super::sample_channel`] apply to each weight by itself. Allocates nothing.
 pub fn sample_morph_weights(take: Option<&Take>, instance: u32, rest: &[f32], time: f32, out: &mut [f32]) {
     let track = take.and_then(|take| take.morphs.iter().find(|track| track.instance == instance));
+    let animated = track.and_then(|track| Some((track, find_keys(&track.times, time)?)));
     for (target, weight) in out.iter_mut().enumerate() {
         let rest = rest.get(target).copied().filter(|weight| weight.is_finite()).unwrap_or(0.0);
-        *weight = track.map_or(rest, |track| sample_weight(track, target, rest, time));
+        *weight = animated.as_ref().map_or(rest, |(track, keys)| sample_weight(track, keys, target, rest));
     }
 }
 
 /// Samples one weight; a file stores the weights of a key next to each other.
-fn sample_weight(track: &MorphTrack, target: usize, rest: f32, time: f32) -> f32 {
+fn sample_weight(track: &MorphTrack, keys: &Keys, target: usize, rest: f32) -> f32 {
     let targets = track.targets as usize;
-    let Some(keys) = find_keys(&track.times, time).filter(|_| target < targets) else { return rest };
+    if target >= targets {
+        return rest;
+    }
     let parts = if track.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
     // The parts of a key of a cubic spline: 0 in-tangents, 1 values, 2 out-tangents. Other keys have one part, the
     // values.

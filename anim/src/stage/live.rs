@@ -27,7 +27,7 @@ impl LiveStage {
         assets: &StageAssets,
     ) -> bool {
         let planned = StageScript::read_in(text, context).and_then(|script| {
-            let plan = StagePlan::new(&script, assets)?;
+            let plan = StagePlan::after(self.plan.as_deref(), &script, assets)?;
             Ok((script, plan))
         });
         match planned {

@@ -86,6 +86,18 @@
 //! stays where the last of them left it. What is attached follows its holder until something moves it that began later. On a path a take
 //! is played by distance, at the stride that its feet or its root motion have, and feet in contact are held where they are.
 //!
+//! # Ground
+//!
+//! `ground="plane"` of a `move` gives its way the height 0, `ground="mesh"` that of the ground props of the cast, which have `ground="yes"`: of several surfaces over each other that of the one
+//! nearest to the height of the way itself, 0 where there is none. What faces down is a ceiling; ground has half a meter of room under a ceiling, and no other ground right
+//! over it. A ground prop has its place in the cast and the rest pose of its model for this; nothing may move it. Feet that are kept stand on the ground under
+//! them and lean with it. What is detached with `drop="ground"` falls on the ground below it.
+//!
+//! # Shape keys
+//!
+//! Shape keys (morph targets) follow the takes as bones do: the same shares, fades and layers, and the weights of the model where a take has no keys of their mesh. A layer with
+//! `bones` moves the shape keys that belong to them ([`StageShapes::bones`]).
+//!
 //! # Differences to the first design
 //!
 //! The rules are those of the prototype with these changes. An `end` at a container's end counts exactly, with its offset, in place of "the
@@ -110,6 +122,7 @@
 mod assets;
 mod ease;
 pub mod gesture;
+mod ground;
 pub mod lanes;
 pub mod line;
 mod live;
@@ -129,8 +142,9 @@ pub mod writing;
 
 pub use assets::StageAssets;
 pub use ease::StageEase;
+pub use ground::GROUND_TRIANGLES;
 pub use live::LiveStage;
-pub use model::{FootContact, StageFoot, StageModel, StageTake};
+pub use model::{FootContact, StageFoot, StageModel, StageShapes, StageTake};
 pub use path::{PathSpot, StagePath};
 pub use plan::{Footprint, PathWalk, Placement, PlannedThing, SoundCue, StagePlan, TitleCue};
 pub use scene::{

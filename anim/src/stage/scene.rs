@@ -1,8 +1,9 @@
 //! A scene at one time: what [`crate::stage::StagePlan::scene_at`] writes.
 
+use super::model::StageModel;
 use super::time::StageTime;
 use crate::data::Transform;
-use crate::fast::{MAX_LAYERS, Pose, PoseBlock, Rig, RootPoses};
+use crate::fast::{MAX_LAYERS, Pose, PoseBlock, RootPoses};
 use glam::{Mat4, Quat, Vec3};
 
 /// A scene. Made by [`crate::stage::StagePlan::new_scene`] for one plan, then written as often as wanted without an allocation.
@@ -41,11 +42,18 @@ pub struct ThingPose {
     pub pose: Pose,
     /// Bone space → the thing's own space.
     pub to_root: RootPoses,
+    /// Weights of the shape keys, in the order of [`StageModel::shapes`]; empty for a model without any.
+    pub shapes: Vec<f32>,
 }
 
 impl ThingPose {
-    pub(super) fn new(rig: &Rig) -> Self {
-        Self { pose: rig.rest().clone(), to_root: RootPoses::new(rig) }
+    pub(super) fn new(model: &StageModel) -> Self {
+        let rig = model.rig();
+        Self {
+            pose: rig.rest().clone(),
+            to_root: RootPoses::new(rig),
+            shapes: model.shapes().rest().to_vec(),
+        }
     }
 }
 
@@ -115,16 +123,18 @@ pub(super) struct StageScratch {
     pub(super) base: Vec<PoseBlock>,
     pub(super) transforms: Vec<Transform>,
     pub(super) matrices: Vec<Mat4>,
+    pub(super) shapes: Vec<f32>,
 }
 
 impl StageScratch {
-    pub(super) fn new(bones: usize) -> Self {
+    pub(super) fn new(bones: usize, shapes: usize) -> Self {
         let blocks = vec![PoseBlock::IDENTITY; bones.div_ceil(8)];
         Self {
             poses: std::array::from_fn(|_| blocks.clone()),
             base: blocks,
             transforms: vec![Transform::IDENTITY; bones],
             matrices: vec![Mat4::IDENTITY; bones],
+            shapes: vec![0.0; shapes],
         }
     }
 }

@@ -76,6 +76,11 @@ impl PaletteLayout {
         Self { skins, rigid, matrices, weights, weight_count: weight_count.max(1), items }
     }
 
+    /// Returns the number of morph weights of all instances together.
+    pub(super) fn shapes(&self) -> usize {
+        self.weights.last().map_or(0, |&(start, count)| start + count)
+    }
+
     /// Returns the bytes of matrices, weights and items of one copy.
     pub(super) fn bytes(&self) -> usize {
         self.matrices * size_of::<Affine>()

@@ -99,6 +99,7 @@ pub(super) fn bits(scene: &StageScene) -> Vec<u32> {
         add(&state.transform.rotation.to_array());
         if let Some(pose) = &state.pose {
             pose.to_root.matrices().for_each(|matrix| add(matrix));
+            add(&pose.shapes);
         }
         if let Some(light) = &state.light {
             add(&[light.color.x, light.color.y, light.color.z, light.strength]);

@@ -10,7 +10,7 @@ use dragonfly_anim::stage::gesture::{
     trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneLanes;
-use dragonfly_anim::stage::script::{StageRepeat, StageScript};
+use dragonfly_anim::stage::script::StageRepeat;
 use dragonfly_anim::stage::splice::TextSplice;
 use dragonfly_anim::stage::time::{Decimal, StageTime};
 use dragonfly_anim::stage::{StageAssets, StagePlan};

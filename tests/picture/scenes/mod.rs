@@ -8,6 +8,7 @@ mod lines;
 mod picking;
 mod posing;
 mod second_view;
+mod shapes;
 mod thumbnail;
 
 use dragonfly_anim::stage::script::StageScript;

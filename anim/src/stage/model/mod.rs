@@ -2,11 +2,13 @@
 
 mod contacts;
 mod foot;
+mod shapes;
 mod stride;
 mod take;
 
 pub use contacts::FootContact;
 pub use foot::StageFoot;
+pub use shapes::StageShapes;
 pub use take::StageTake;
 
 use crate::contact::{feet_by_name, limb_of};
@@ -25,6 +27,7 @@ pub struct StageModel {
     rig: Rig,
     feet: Vec<StageFoot>,
     takes: Vec<StageTake>,
+    shapes: StageShapes,
     head: Option<BoneIndex>,
     /// The bone above all feet.
     hips: Option<BoneIndex>,
@@ -55,7 +58,8 @@ impl StageModel {
         let rig = Rig::new(skeleton);
         let hips = hips_above(skeleton, &feet);
         let head = head.map(|bone| bone as BoneIndex);
-        Self { data: Arc::clone(&model), rig, feet, takes, head, hips, rest_rotations }
+        let shapes = StageShapes::new(&model);
+        Self { data: Arc::clone(&model), rig, feet, takes, shapes, head, hips, rest_rotations }
     }
 
     /// Returns the model.
@@ -81,6 +85,11 @@ impl StageModel {
     /// Returns the position of the first take called `name`.
     pub fn take_called(&self, name: &str) -> Option<usize> {
         self.takes.iter().position(|take| take.name() == name)
+    }
+
+    /// Returns the shape keys.
+    pub fn shapes(&self) -> &StageShapes {
+        &self.shapes
     }
 
     /// Returns the feet.

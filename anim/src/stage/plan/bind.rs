@@ -3,6 +3,7 @@
 use super::fade::ActiveSpan;
 use super::placement::Placement;
 use super::places::PlaceLane;
+use super::poses::PoseMask;
 use super::properties::{PropertyLane, property_value};
 use super::spot::StageSpot;
 use super::thing::{FocusTarget, PlannedThing};
@@ -10,6 +11,7 @@ use crate::data::{BoneIndex, Skeleton};
 use crate::fast::LaneMask;
 use crate::ik::Gaze;
 use crate::stage::assets::StageAssets;
+use crate::stage::ground::SceneGround;
 use crate::stage::model::StageModel;
 use crate::stage::path::StagePath;
 use crate::stage::script::{ErrorList, ScriptElement, StageScript, suggestion};
@@ -23,6 +25,7 @@ use std::sync::Arc;
 pub(super) struct StageBinder<'a> {
     pub(super) script: &'a StageScript,
     pub(super) things: Vec<PlannedThing>,
+    pub(super) ground: Arc<SceneGround>,
 }
 
 /// Returns a number of an element, or its default.
@@ -32,7 +35,7 @@ pub(super) fn number(element: &ScriptElement, name: &str) -> Option<f64> {
 
 impl<'a> StageBinder<'a> {
     pub(super) fn new(script: &'a StageScript, assets: &StageAssets, errors: &mut ErrorList) -> Self {
-        let mut binder = Self { script, things: Vec::new() };
+        let mut binder = Self { script, things: Vec::new(), ground: Arc::default() };
         for element in script.things() {
             let model = binder.model(element, assets, errors);
             let path = (element.row.name == "path").then(|| path(element, assets, errors).map(Arc::new));
@@ -49,6 +52,7 @@ impl<'a> StageBinder<'a> {
                 is_missing: model.is_none() && element.value("model").is_some(),
                 model,
                 path: path.flatten(),
+                ground: None,
                 places: PlaceLane { base: base(element), cues: Vec::new() },
                 poses: vec![super::poses::PoseLane::default()],
                 looks: Vec::new(),
@@ -174,13 +178,17 @@ impl<'a> StageBinder<'a> {
         names.split(',').map(find).collect()
     }
 
-    /// Returns the mask of an action: the bones that it lists, with those below them.
-    pub(super) fn mask(&self, action: usize, errors: &mut ErrorList) -> Option<LaneMask> {
+    /// Returns the mask of an action: the bones that it lists, with those below them, and the shape keys that belong to them.
+    pub(super) fn mask(&self, action: usize, errors: &mut ErrorList) -> Option<PoseMask> {
         let bones = self.bones(action, errors)?;
         let model = self.things[self.who(action)?].model.as_ref()?;
-        Some(LaneMask::new(
-            branches(model.skeleton(), &bones).into_iter().map(|is_in| f32::from(u8::from(is_in))),
-        ))
+        let is_in = branches(model.skeleton(), &bones);
+        let moves =
+            |bone: &Option<BoneIndex>| bone.is_some_and(|bone| is_in.get(bone as usize) == Some(&true));
+        Some(PoseMask {
+            shapes: model.shapes().bones().iter().map(moves).collect(),
+            bones: LaneMask::new(is_in.iter().map(|&is_in| f32::from(u8::from(is_in)))),
+        })
     }
 
     /// Returns the bones that look, the head last.

@@ -1,8 +1,10 @@
 //! From a script and its models to a plan.
 
+use super::StagePlan;
 use super::bind::{StageBinder, number};
 use super::clock::PlayClock;
 use super::cues::{RunCue, ShotCue, SoundCue, TitleCue, run_seed};
+use super::ground::{check_ground, find_ground};
 use super::holds::{HoldCue, HoldKind, RigidPlace};
 use super::looks::LookCue;
 use super::motions::{BoundAction, MotionPlanner};
@@ -33,8 +35,12 @@ pub(super) struct PlanBuilder<'a> {
 
 impl<'a> PlanBuilder<'a> {
     /// Binds names, computes times and places, and sorts every action into its channel.
-    pub(super) fn build(script: &'a StageScript, assets: &StageAssets) -> Result<Self, Vec<ScriptError>> {
-        let nested = script.with_errors(|errors| Self::bound(script, assets, errors))?;
+    pub(super) fn build(
+        script: &'a StageScript,
+        assets: &StageAssets,
+        before: Option<&StagePlan>,
+    ) -> Result<Self, Vec<ScriptError>> {
+        let nested = script.with_errors(|errors| Self::bound(script, assets, before, errors))?;
         let (binder, bound) = nested;
         let planned =
             script.with_errors(|errors| MotionPlanner { binder: &binder, bound: &bound }.plan(errors))?;
@@ -67,9 +73,11 @@ impl<'a> PlanBuilder<'a> {
     fn bound(
         script: &'a StageScript,
         assets: &StageAssets,
+        before: Option<&StagePlan>,
         errors: &mut ErrorList,
     ) -> (StageBinder<'a>, Vec<BoundAction>) {
-        let binder = StageBinder::new(script, assets, errors);
+        let mut binder = StageBinder::new(script, assets, errors);
+        find_ground(&mut binder, before, errors);
         let bind = |action: usize| {
             let element = script.element(action);
             let spot = match element.row.name {
@@ -81,7 +89,8 @@ impl<'a> PlanBuilder<'a> {
             };
             BoundAction { who: binder.who(action), take: binder.take(action, errors), spot }
         };
-        let bound = (0..script.actions().len()).map(bind).collect();
+        let bound: Vec<BoundAction> = (0..script.actions().len()).map(bind).collect();
+        check_ground(&binder, &bound, errors);
         (binder, bound)
     }
 
@@ -177,7 +186,11 @@ impl<'a> PlanBuilder<'a> {
                 HoldKind::Attach { to, grip: RigidPlace { position, rotation }, fade_in: span.fade_in }
             }
             ("attach", None) => return,
-            _ => HoldKind::Detach { from: None, falls: element.value("drop") == Some("ground") },
+            _ => HoldKind::Detach {
+                from: None,
+                // The ground below is known together with the place.
+                floor: (element.value("drop") == Some("ground")).then_some(0.0),
+            },
         };
         self.binder.things[who].holds.push(HoldCue { action, begin: times.begin, kind });
     }

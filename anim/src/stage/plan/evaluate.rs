@@ -7,6 +7,7 @@ use super::holds::{HoldCue, HoldKind, MOST_FADES, RigidPlace, fallen};
 use super::needed::NeededThings;
 use super::places::MotionKind;
 use super::poses::pose_role;
+use super::shapes::shape_role;
 use super::spot::StageSpot;
 use super::thing::PlannedThing;
 use crate::data::Transform;
@@ -76,10 +77,13 @@ fn place_things(
 fn fits(plan: &StagePlan, scene: &StageScene) -> bool {
     let same = |(thing, state): (&PlannedThing, &ThingState)| {
         let bones = thing.model.as_ref().map(|model| model.rig().bones());
+        let shapes = thing.model.as_ref().map_or(0, |model| model.shapes().len());
         bones == state.pose.as_ref().map(|pose| pose.pose.bones())
             && (thing.kind == "light") == state.light.is_some()
             && (thing.kind == "effect") == state.effect.is_some()
             && bones.unwrap_or(0) <= scene.scratch.transforms.len()
+            && shapes == state.pose.as_ref().map_or(0, |pose| pose.shapes.len())
+            && shapes <= scene.scratch.shapes.len()
     };
     plan.things.len() == scene.things.len() && plan.things.iter().zip(&scene.things).all(same)
 }
@@ -165,9 +169,9 @@ fn place_of(
             let before = place_of(plan, thing, time, things, at, fades - 1);
             before.mixed(&held, smooth(after.ticks() as f64 / fade_in.ticks() as f64))
         }
-        HoldKind::Detach { from, falls } => {
+        HoldKind::Detach { from, floor } => {
             let from = from.unwrap_or(RigidPlace { position: DVec3::ZERO, rotation: glam::DQuat::IDENTITY });
-            if *falls { fallen(&from, time - hold.begin) } else { from }
+            floor.map_or(from, |floor| fallen(&from, floor, time - hold.begin))
         }
     }
 }
@@ -180,6 +184,10 @@ fn pose(plan: &StagePlan, thing: usize, time: StageTime, scene: &mut StageScene)
     let Some(model) = &planned.model else { return };
     pose_role(plan.level, model, &planned.poses, &planned.places, time, scratch, state.pose.blocks_mut());
     to_root(plan.level, model.rig(), state.pose.blocks(), &mut state.to_root);
+    if !state.shapes.is_empty() {
+        let (lanes, places) = (&planned.poses, &planned.places);
+        shape_role(model, lanes, places, time, &mut scratch.shapes, &mut state.shapes);
+    }
     let Some((cue, share)) = walking(planned, time) else { return };
     let place = rigid(transform);
     let space = RoleSpace { position: place.position, rotation: place.rotation, scale: planned.scale };

@@ -4,17 +4,21 @@
 //! contact is held by two-bone IK at one point of the scene, its *anchor*: where it is in the middle of the contact. Before and after a
 //! contact the correction fades, as in [`crate::contact::lock_contacts`]. The anchor follows from the path alone, so any time can be asked
 //! for first.
+//!
+//! On a mesh each foot follows the ground under itself, on its way as well: its height over the role becomes its height over the ground there. In a
+//! contact it leans with the ground, and is as far from it as its take says, measured along the normal.
 
-use super::follow::{PathFollower, PathStride};
+use super::follow::{PathFollower, PathStride, WayGround};
 use super::places::{MotionKind, PlaceLane};
 use crate::data::Transform;
 use crate::fast::simd::SimdLevel;
 use crate::fast::{FastTwoBone, RootPoses, matrix, to_root, two_bone};
 use crate::stage::ease::smooth;
+use crate::stage::ground::{GroundSurface, SceneGround};
 use crate::stage::model::{FootContact, StageModel};
 use crate::stage::scene::ThingPose;
 use crate::stage::time::StageTime;
-use glam::{DQuat, DVec3, Mat4, Vec3};
+use glam::{DQuat, DVec3, Mat4, Quat, Vec3};
 
 /// Seconds of the take over which a correction fades before and after a contact.
 const EASE: f64 = 0.1;
@@ -43,6 +47,9 @@ const MOST_FEET: usize = 8;
 /// Largest distance by which hips are lowered, as a part of the length of a leg.
 const LOWERED: f32 = 0.15;
 
+/// The same on a mesh, where one foot may be much lower than the other.
+const LOWERED_ON_MESH: f32 = 0.4;
+
 /// A walk at a time: the motion, and the share of the pose that its take has.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WalkState {
@@ -68,6 +75,7 @@ pub(super) fn keep_feet(
     let mut targets: [Option<StandingTarget>; MOST_FEET] = [None; MOST_FEET];
     for (index, (foot, target)) in model.feet().iter().zip(&mut targets).enumerate() {
         let now = space.to_scene(joint(&state.to_root, foot.bone).as_dvec3());
+        let now = standing.over_ground(space.position.y, now);
         *target = standing
             .target(index, phase, now)
             .map(|target| StandingTarget { position: space.to_own(target.position), ..target });
@@ -76,18 +84,52 @@ pub(super) fn keep_feet(
         return;
     }
     let legs = || model.feet().iter().zip(targets).filter_map(|(foot, target)| Some((foot, target?)));
-    let lower = legs().map(|(foot, target)| missing(&foot.limb, &target, &state.to_root)).fold(0.0, f32::max);
+    let on_mesh = standing.mesh().is_some();
+    let most = if on_mesh { LOWERED_ON_MESH } else { LOWERED };
+    let lower =
+        legs().map(|(foot, target)| missing(&foot.limb, &target, most, &state.to_root)).fold(0.0, f32::max);
     if lower > 0.0
         && let Some(hips) = model.hips()
     {
         lower_hips(model, hips, lower * walk.share, state);
         to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
     }
+    let mut turned = [Quat::IDENTITY; MOST_FEET];
+    for ((foot, _), turned) in legs().zip(&mut turned).filter(|_| on_mesh) {
+        *turned = rotation(&state.to_root, foot.bone);
+    }
     for (foot, target) in legs() {
         let limb = FastTwoBone { weight: walk.share, ..foot.limb };
         two_bone(&limb, target.position.as_vec3(), &state.to_root, &mut state.pose);
     }
     to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
+    if !on_mesh {
+        return;
+    }
+    // There legs bend much more than the take has it, and feet must not turn with them.
+    for ((foot, target), turned) in legs().zip(turned) {
+        let lean = space.rotation.inverse() * (target.lean * f64::from(walk.share));
+        let up = (DVec3::Y + lean).as_vec3().normalize_or(Vec3::Y);
+        turn_foot(model, foot.bone, Quat::from_rotation_arc(Vec3::Y, up) * turned, state);
+    }
+    to_root(level, model.rig(), state.pose.blocks(), &mut state.to_root);
+}
+
+/// Returns the rotation of a bone, to-root space.
+fn rotation(matrices: &RootPoses, bone: u32) -> Quat {
+    Transform::from_matrix(matrix::mat4(matrices.get(bone as usize))).rotation
+}
+
+/// Turns a foot about its joint to a rotation in to-root space.
+fn turn_foot(model: &StageModel, foot: u32, turned: Quat, state: &mut ThingPose) {
+    let parent = model.rig().parent(foot as usize);
+    let above = parent.map_or(Quat::IDENTITY, |parent| rotation(&state.to_root, parent as u32));
+    if let Some(pose) = state.pose.get(foot as usize) {
+        let rotation = (above.inverse() * turned).normalize();
+        if rotation.is_finite() {
+            state.pose.set(foot as usize, Transform { rotation, ..pose });
+        }
+    }
 }
 
 /// Returns the origin of a bone, to-root space.
@@ -98,14 +140,14 @@ fn joint(matrices: &RootPoses, bone: u32) -> Vec3 {
 /// Part of its length that a leg may have between its ends: near its full length, a small movement of the foot is a large one of the knee.
 const STRAIGHT: f32 = 0.995;
 
-/// Returns the distance by which the hips have to be lowered so that a leg reaches its target; 0 where it does, or cannot.
-fn missing(limb: &FastTwoBone, target: &StandingTarget, matrices: &RootPoses) -> f32 {
+/// Returns the distance by which the hips have to be lowered so that a leg reaches its target, at most the part `most` of its length; 0 where it does.
+fn missing(limb: &FastTwoBone, target: &StandingTarget, most: f32, matrices: &RootPoses) -> f32 {
     let [root, middle, end] = [limb.root, limb.middle, limb.end].map(|bone| joint(matrices, bone));
     let length = STRAIGHT * (root.distance(middle) + middle.distance(end));
     let way = root - target.position.as_vec3();
     let height = (length * length - way.x * way.x - way.z * way.z).max(0.0).sqrt();
     let lower = way.y - height;
-    if lower > 0.0 { lower.min(LOWERED * length) * target.weight } else { 0.0 }
+    if lower > 0.0 { lower.min(most * length) * target.weight } else { 0.0 }
 }
 
 /// Moves the hips down, to-root space.
@@ -119,7 +161,7 @@ fn lower_hips(model: &StageModel, hips: u32, lower: f32, state: &mut ThingPose) 
 }
 
 /// Returns when a foot lands in the motion at `cue` of a thing that follows a path, and where it is then: in the contact of its take `turn` cycles after the
-/// start. `None` where the motion is another one, or ends before.
+/// start, at the height of the ground. `None` where the motion is another one, or ends before.
 pub(super) fn landing(
     places: &PlaceLane,
     (cue, scale): (usize, f64),
@@ -136,7 +178,10 @@ pub(super) fn landing(
         return None;
     }
     let begin = place.begin + follower.after_phase(from.max(0.0));
-    Some((begin, standing.at(contact, 0.5 * (from + to), start)))
+    let position = standing.at(contact, 0.5 * (from + to), start).0;
+    let role = places.by(cue, begin).position.y;
+    let height = standing.ground_under(role, position).map_or(role, |surface| surface.height);
+    Some((begin, position.with_y(height)))
 }
 
 /// The position that a foot has to have, and its weight: less than 1 before and after a contact.
@@ -144,6 +189,19 @@ pub(super) fn landing(
 struct StandingTarget {
     position: DVec3,
     weight: f32,
+    /// From the vertical to the direction that is up for the foot.
+    lean: DVec3,
+}
+
+/// Largest sine of the angle by which a foot leans: 40 degrees.
+const MOST_LEAN: f64 = 0.642_787_6;
+
+/// Returns the vector from the vertical to a unit normal, for a foot on the ground.
+fn lean(normal: DVec3) -> DVec3 {
+    let across = DVec3::new(normal.x, 0.0, normal.z);
+    let length = across.length();
+    let across = if length > MOST_LEAN { across * (MOST_LEAN / length) } else { across };
+    across + DVec3::Y * ((1.0 - across.length_squared()).sqrt() - 1.0)
 }
 
 struct StandingFeet<'a> {
@@ -159,28 +217,63 @@ impl StandingFeet<'_> {
     fn target(&self, foot: usize, phase: f64, now: DVec3) -> Option<StandingTarget> {
         let cycle = self.stride.seconds();
         let loops = (phase / cycle).floor();
-        let mut corrected = StandingTarget { position: now, weight: 0.0 };
+        let mut corrected = StandingTarget { position: now, weight: 0.0, lean: DVec3::ZERO };
         for contact in self.stride.take().contacts().iter().filter(|contact| contact.foot == foot) {
             for turn in [loops - 1.0, loops, loops + 1.0] {
                 let (from, to) = (contact.from.seconds() + turn * cycle, contact.to.seconds() + turn * cycle);
                 if phase < from - EASE || phase > to + EASE {
                     continue;
                 }
-                let anchor = self.at(contact, 0.5 * (from + to), turn * cycle);
+                let (anchor, lean) = self.anchor(contact, 0.5 * (from + to), turn * cycle);
                 if (from..=to).contains(&phase) {
-                    return Some(StandingTarget { position: anchor, weight: 1.0 });
+                    return Some(StandingTarget { position: anchor, weight: 1.0, lean });
                 }
                 let (border, far) = if phase < from { (from, from - phase) } else { (to, phase - to) };
                 let weight = smooth(1.0 - far / EASE);
-                corrected.position += (anchor - self.at(contact, border, turn * cycle)) * weight;
+                corrected.position += (anchor - self.at(contact, border, turn * cycle).0) * weight;
+                corrected.lean += lean * weight;
                 corrected.weight = corrected.weight.max(weight as f32);
             }
         }
-        (corrected.weight > 0.0).then_some(corrected)
+        // On a mesh a foot on its way follows the ground, too.
+        (corrected.weight > 0.0 || self.mesh().is_some()).then_some(corrected)
     }
 
-    /// Returns the position in the scene that a foot in contact has by the take alone at the time `phase` of it.
-    fn at(&self, contact: &FootContact, phase: f64, start: f64) -> DVec3 {
+    /// Returns the ground that the way follows; `None` where it follows no mesh.
+    fn mesh(&self) -> Option<&SceneGround> {
+        match &self.follower.ground {
+            WayGround::Mesh(ground) => Some(ground),
+            WayGround::Off | WayGround::Plane => None,
+        }
+    }
+
+    /// Returns the ground under a foot of a role at the height `role`; `None` where the way follows no mesh, or none is there.
+    fn ground_under(&self, role: f64, foot: DVec3) -> Option<GroundSurface> {
+        self.mesh()?.nearest(foot.with_y(role))
+    }
+
+    /// Returns the position of a foot with the height over the ground that it has over the role, whose height is `role`.
+    fn over_ground(&self, role: f64, foot: DVec3) -> DVec3 {
+        if self.mesh().is_none() {
+            return foot;
+        }
+        let ground = self.ground_under(role, foot).map_or(0.0, |surface| surface.height);
+        foot.with_y(ground + foot.y - role)
+    }
+
+    /// Returns where a foot is during a contact, and how it leans there.
+    fn anchor(&self, contact: &FootContact, middle: f64, start: f64) -> (DVec3, DVec3) {
+        let (position, role) = self.at(contact, middle, start);
+        let Some(ground) = self.ground_under(role, position) else { return (position, DVec3::ZERO) };
+        let lean = lean(ground.normal);
+        // On a plane the distance along the normal is shorter than the height.
+        let height = (position.y - ground.height) / (1.0 + lean.y);
+        (position.with_y(ground.height + height), lean)
+    }
+
+    /// Returns the position in the scene that a foot in contact has by the take alone at the time `phase` of it, over the ground, and the height of the role
+    /// then.
+    fn at(&self, contact: &FootContact, phase: f64, start: f64) -> (DVec3, f64) {
         let last = if self.follower.is_endless { f64::INFINITY } else { self.follower.phase_end };
         let phase = phase.max(0.0).min(last);
         let (from, to) = (contact.from.seconds(), contact.to.seconds());
@@ -190,6 +283,8 @@ impl StandingFeet<'_> {
         let cue = &self.places.cues[self.cue];
         let placement =
             self.places.by(self.cue, (cue.begin + self.follower.after_phase(phase)).min(cue.stop));
-        placement.position + placement.rotation() * (local * self.scale)
+        let (role, foot) =
+            (placement.position.y, placement.position + placement.rotation() * (local * self.scale));
+        (self.over_ground(role, foot), role)
     }
 }

@@ -9,6 +9,7 @@
 
 use super::placement::{Placement, facing_of};
 use crate::stage::ease::StageEase;
+use crate::stage::ground::SceneGround;
 use crate::stage::model::{StageModel, StageTake};
 use crate::stage::path::StagePath;
 use crate::stage::time::{StageTime, TICKS_PER_SECOND};
@@ -22,6 +23,17 @@ pub(super) enum PathHeading {
     Along,
     /// In one direction, radians.
     Fixed(f64),
+}
+
+/// The height of a way.
+#[derive(Clone, Debug)]
+pub(super) enum WayGround {
+    /// Its own.
+    Off,
+    /// 0.
+    Plane,
+    /// That of the ground props; 0 where there are none.
+    Mesh(Arc<SceneGround>),
 }
 
 /// A take that is played by distance.
@@ -102,8 +114,7 @@ impl PathStride {
 #[derive(Clone, Debug)]
 pub(super) struct PathFollower {
     pub(super) path: Arc<StagePath>,
-    /// Whether its height is that of the ground.
-    pub(super) is_flat: bool,
+    pub(super) ground: WayGround,
     /// Duration of the whole way; of one lap where it repeats without an end.
     pub(super) total: StageTime,
     /// Meters of the whole way, or of one lap.
@@ -164,9 +175,13 @@ impl PathFollower {
         };
         let mut placement = Placement { position: spot.position, facing };
         placement.position += placement.rotation() * aside;
-        if self.is_flat {
-            placement.position.y = 0.0;
-        }
+        placement.position.y = match &self.ground {
+            WayGround::Off => placement.position.y,
+            WayGround::Plane => 0.0,
+            WayGround::Mesh(ground) => {
+                ground.nearest(placement.position).map_or(0.0, |surface| surface.height)
+            }
+        };
         placement
     }
 }

@@ -18,7 +18,7 @@ pub struct Footprint {
     pub foot: usize,
     /// The time at which it lands.
     pub time: StageTime,
-    /// The place below the joint of the foot, at the height of the thing; meters.
+    /// The place below the joint of the foot, at the height of the thing, or of the mesh that its way follows; meters.
     pub position: DVec3,
 }
 
@@ -55,9 +55,10 @@ impl StagePlan {
         for contact in stride.take().contacts() {
             let landings =
                 (0..).map_while(|turn| landing(&planned.places, (walk.cue, planned.scale), contact, turn));
-            found.extend(landings.take(MOST).map(|(time, position)| {
-                let height = planned.places.by(walk.cue, time).position.y;
-                Footprint { foot: contact.foot, time, position: position.with_y(height) }
+            found.extend(landings.take(MOST).map(|(time, position)| Footprint {
+                foot: contact.foot,
+                time,
+                position,
             }));
         }
         found.sort_by_key(|print| (print.time, print.foot));

@@ -10,6 +10,7 @@ mod fade;
 mod feet;
 mod follow;
 mod footprints;
+mod ground;
 mod holds;
 mod looks;
 mod motions;
@@ -18,6 +19,7 @@ mod placement;
 mod places;
 mod poses;
 mod properties;
+mod shapes;
 mod spot;
 mod thing;
 
@@ -27,6 +29,7 @@ pub use placement::Placement;
 pub use thing::PlannedThing;
 
 use super::assets::StageAssets;
+use super::ground::SceneGround;
 use super::scene::{
     EffectState, LightState, PlayingSound, StageCamera, StageScene, StageScratch, ThingPose, ThingState,
 };
@@ -37,10 +40,11 @@ use crate::data::Transform;
 use crate::fast::simd::SimdLevel;
 use build::{PlanBuilder, holding_order};
 use cues::ShotCue;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use holds::HoldKind;
 use needed::NeededThings;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Number of things that may hold one, each through the next.
 const MOST_HOLDERS: usize = 64;
@@ -60,6 +64,7 @@ pub struct StagePlan {
     things: Vec<PlannedThing>,
     /// The positions of the things by their ids.
     positions: HashMap<Box<str>, usize>,
+    ground: Arc<SceneGround>,
     /// The things, those that hold others first.
     order: Vec<usize>,
     shots: Vec<ShotCue>,
@@ -75,7 +80,20 @@ impl StagePlan {
     /// What the script names and the models do not have, ways without a duration, times that depend on themselves, things that hold each
     /// other: all with their places.
     pub fn new(script: &StageScript, assets: &StageAssets) -> Result<Self, Vec<ScriptError>> {
-        Self::at_level(script, assets, SimdLevel::best())
+        Self::made(script, assets, SimdLevel::best(), None)
+    }
+
+    /// As [`Self::new`], for a script of which `before` is an older plan: the ground of models that both have is not prepared again.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn after(
+        before: Option<&Self>,
+        script: &StageScript,
+        assets: &StageAssets,
+    ) -> Result<Self, Vec<ScriptError>> {
+        Self::made(script, assets, SimdLevel::best(), before)
     }
 
     /// As [`Self::new`], for given instructions: with the portable ones, scenes have the same bits on every machine.
@@ -88,7 +106,17 @@ impl StagePlan {
         assets: &StageAssets,
         level: SimdLevel,
     ) -> Result<Self, Vec<ScriptError>> {
-        let builder = PlanBuilder::build(script, assets)?;
+        Self::made(script, assets, level, None)
+    }
+
+    fn made(
+        script: &StageScript,
+        assets: &StageAssets,
+        level: SimdLevel,
+        before: Option<&Self>,
+    ) -> Result<Self, Vec<ScriptError>> {
+        let builder = PlanBuilder::build(script, assets, before)?;
+        let ground = builder.binder.ground;
         let things = builder.binder.things;
         let mut plan = Self {
             level,
@@ -96,6 +124,7 @@ impl StagePlan {
             schedule: builder.schedule,
             positions: things.iter().enumerate().map(|(at, thing)| (thing.id.clone(), at)).collect(),
             things,
+            ground,
             order: Vec::new(),
             shots: builder.shots,
             titles: builder.titles,
@@ -158,8 +187,11 @@ impl StagePlan {
             if needed.work.things > MOST_COMPUTED || needed.work.cues > MOST_CONSIDERED {
                 return Err(action);
             }
-            if let HoldKind::Detach { from, .. } = &mut self.things[thing].holds[at].kind {
+            if let HoldKind::Detach { from, floor } = &mut self.things[thing].holds[at].kind {
                 *from = Some(place);
+                if let Some(floor) = floor {
+                    *floor = self.ground.below(place.position).map_or(0.0, |surface| surface.height);
+                }
             }
         }
         Ok(())
@@ -209,6 +241,11 @@ impl StagePlan {
         }));
     }
 
+    /// Returns the height of the ground props of the cast under or over a point, nearest to its height; `None` where there is none.
+    pub fn ground_at(&self, point: DVec3) -> Option<f64> {
+        self.ground.nearest(point).map(|surface| surface.height)
+    }
+
     /// Returns the place of a thing at `time` by its motions alone, as if nothing held it; `None` past the end.
     pub fn placement(&self, thing: usize, time: StageTime) -> Option<Placement> {
         self.things.get(thing).map(|thing| thing.places.at(time))
@@ -227,18 +264,20 @@ impl StagePlan {
         let effect = EffectState { weight: 0.0, seconds: 0.0, seed: 0, rate: 0.0 };
         let state = |thing: &PlannedThing| ThingState {
             transform: Transform::IDENTITY,
-            pose: thing.model.as_ref().map(|model| ThingPose::new(model.rig())),
+            pose: thing.model.as_ref().map(|model| ThingPose::new(model)),
             light: (thing.kind == "light").then_some(light),
             effect: (thing.kind == "effect").then_some(effect),
         };
-        let bones = |thing: &PlannedThing| thing.model.as_ref().map_or(0, |model| model.rig().bones());
+        let models = || self.things.iter().filter_map(|thing| thing.model.as_ref());
+        let bones = models().map(|model| model.rig().bones()).max().unwrap_or(0);
+        let shapes = models().map(|model| model.shapes().len()).max().unwrap_or(0);
         StageScene {
             time: StageTime::ZERO,
             things: self.things.iter().map(state).collect(),
             camera: None,
             titles: Vec::with_capacity(self.titles.len()),
             sounds: Vec::with_capacity(self.sounds.len()),
-            scratch: StageScratch::new(self.things.iter().map(bones).max().unwrap_or(0)),
+            scratch: StageScratch::new(bones, shapes),
         }
     }
 

@@ -6,7 +6,7 @@
 
 use super::bind::{StageBinder, number};
 use super::clock::PlayClock;
-use super::follow::{PathFollower, PathHeading, PathStride};
+use super::follow::{PathFollower, PathHeading, PathStride, WayGround};
 use super::placement::facing_of;
 use super::places::{MotionKind, PlaceCue, PlaceLane};
 use super::spot::StageSpot;
@@ -299,7 +299,11 @@ impl MotionPlanner<'_, '_> {
         let distance = path.length() * laps.to_f64();
         let stride = self.stride(action);
         PathFollower {
-            is_flat: element.value("ground") == Some("plane"),
+            ground: match element.value("ground") {
+                Some("plane") => WayGround::Plane,
+                Some("mesh") => WayGround::Mesh(Arc::clone(&self.binder.ground)),
+                Some(_) | None => WayGround::Off,
+            },
             total,
             distance,
             is_endless,

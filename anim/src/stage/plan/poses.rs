@@ -30,24 +30,32 @@ pub(super) struct PoseCue {
     pub(super) clock: TakeClock,
 }
 
+/// The parts of a role that a layer moves.
+#[derive(Clone, Debug)]
+pub(super) struct PoseMask {
+    pub(super) bones: LaneMask,
+    /// For each shape key of the model.
+    pub(super) shapes: Vec<bool>,
+}
+
 /// The takes of one layer, in the order of their begins.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PoseLane {
-    /// The bones that it moves; `None`: all.
-    pub(super) mask: Option<LaneMask>,
+    /// The parts that it moves; `None`: everything.
+    pub(super) mask: Option<PoseMask>,
     pub(super) cues: Vec<PoseCue>,
 }
 
 /// A take and its share of the pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct TakeShare {
-    cue: usize,
-    share: f32,
+pub(super) struct TakeShare {
+    pub(super) cue: usize,
+    pub(super) share: f32,
 }
 
 impl PoseLane {
     /// Returns the takes that count at `time` with their shares, the latest first, and their number.
-    fn shares(&self, time: StageTime) -> ([TakeShare; MAX_LAYERS], usize) {
+    pub(super) fn shares(&self, time: StageTime) -> ([TakeShare; MAX_LAYERS], usize) {
         let (mut found, mut count, mut left) = ([TakeShare::default(); MAX_LAYERS], 0, 1.0);
         let begun = self.cues.partition_point(|cue| cue.span.begin <= time);
         for (index, cue) in self.cues[..begun].iter().enumerate().rev() {
@@ -104,10 +112,11 @@ pub(super) fn pose_role(
                 for (one, pose) in some.iter().zip(&mut scratch.poses) {
                     play(one, &mut pose[..blocks]);
                 }
+                let mask = lane.mask.as_ref().map(|mask| &mask.bones);
                 let empty = PoseLayer { pose: &[], weight: 0.0, mask: None };
                 let mut layers = [empty; MAX_LAYERS];
                 for ((layer, one), pose) in layers.iter_mut().zip(some).zip(&scratch.poses) {
-                    *layer = PoseLayer { pose: &pose[..blocks], weight: one.share, mask: lane.mask.as_ref() };
+                    *layer = PoseLayer { pose: &pose[..blocks], weight: one.share, mask };
                 }
                 let base = &mut scratch.base[..blocks];
                 base.copy_from_slice(if number == 0 { rest } else { out });
@@ -118,7 +127,7 @@ pub(super) fn pose_role(
 }
 
 /// Returns the time in a take, after its start.
-fn take_time(cue: &PoseCue, places: &PlaceLane, time: StageTime) -> StageTime {
+pub(super) fn take_time(cue: &PoseCue, places: &PlaceLane, time: StageTime) -> StageTime {
     match &cue.clock {
         TakeClock::Own(clock) => clock.time(cue.span.after(time)),
         TakeClock::Path => {

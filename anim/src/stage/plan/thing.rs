@@ -7,6 +7,7 @@ use super::places::PlaceLane;
 use super::poses::PoseLane;
 use super::properties::PropertyLane;
 use super::spot::StageSpot;
+use crate::stage::ground::GroundMesh;
 use crate::stage::model::StageModel;
 use crate::stage::path::StagePath;
 use std::sync::Arc;
@@ -37,6 +38,8 @@ pub struct PlannedThing {
     pub is_missing: bool,
     /// Its way; `None` for things that are no path.
     pub path: Option<Arc<StagePath>>,
+    /// Its surface, if it is ground.
+    pub(super) ground: Option<Arc<GroundMesh>>,
     pub(super) places: PlaceLane,
     /// The first lane is that of the whole body.
     pub(super) poses: Vec<PoseLane>,
@@ -50,6 +53,11 @@ pub struct PlannedThing {
 }
 
 impl PlannedThing {
+    /// Returns whether it is ground: a prop that ways with `ground="mesh"` follow. Not while its model is missing.
+    pub fn is_ground(&self) -> bool {
+        self.ground.is_some()
+    }
+
     /// Returns the lane of a property.
     pub(super) fn property(&self, name: &str) -> Option<&PropertyLane> {
         self.properties.iter().find(|lane| lane.name == name)

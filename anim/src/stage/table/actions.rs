@@ -107,9 +107,9 @@ pub(super) const MOVE: ElementRow = ElementRow {
                 ),
                 optional(
                     "ground",
-                    ValueRow::choice(&["off", "plane"]),
+                    ValueRow::choice(&["off", "plane", "mesh"]),
                     "off",
-                    "What height the way has: its own, or that of the ground at 0.",
+                    "What height the way has: its own, that of the plane at 0, or that of the props that are ground.",
                 ),
                 optional(
                     "feet",

@@ -54,8 +54,21 @@ pub(super) const CAST: ElementRow = ElementRow {
 pub(super) const ROLE: ElementRow =
     thing("role", &[ID, MODEL, PLACED], "A figure with bones and takes that it can play.");
 
-pub(super) const PROP: ElementRow =
-    thing("prop", &[ID, MODEL, PLACED], "An object that stands somewhere or is carried.");
+pub(super) const PROP: ElementRow = thing(
+    "prop",
+    &[
+        ID,
+        MODEL,
+        PLACED,
+        &[optional(
+            "ground",
+            YES_NO,
+            "no",
+            "Whether it is ground for `move` with `ground=\"mesh\"`; nothing may move it then.",
+        )],
+    ],
+    "An object that stands somewhere or is carried.",
+);
 
 pub(super) const CAMERA: ElementRow = thing(
     "camera",

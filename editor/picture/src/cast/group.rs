@@ -8,6 +8,7 @@ use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::fast::matrix::mat4;
 use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::fast::{Matrix34, Rig, RootPoses, SkinBinding, final_poses, to_root};
+use dragonfly_anim::stage::ThingPose;
 use dragonfly_document::LoadedModel;
 use glam::Mat4;
 use std::sync::Arc;
@@ -19,6 +20,8 @@ pub(super) struct CastGroup {
     bindings: Vec<SkinBinding>,
     /// The pose of things that have none: at rest.
     rest: RootPoses,
+    /// Their weights of the shape keys, in the order of the instances.
+    rest_weights: Vec<f32>,
     bones: usize,
     /// Created when the pointer is first over the box around one of them.
     picker: Option<GroupPicker>,
@@ -31,17 +34,15 @@ impl CastGroup {
         let mut rest = RootPoses::new(&rig);
         to_root(SimdLevel::best(), &rig, rig.rest().blocks(), &mut rest);
         let bindings = model.skins.iter().map(|skin| SkinBinding::new(&rig, skin)).collect();
-        let mut draws = DrawSet::with_layout(Arc::clone(&loaded), layout, copies);
-        for copy in 0..copies {
-            let (layout, _, weights) = draws.write(copy);
-            for (instance, &(start, count)) in model.instances.iter().zip(&layout.weights) {
-                for (weight, &given) in weights[start..start + count].iter_mut().zip(&instance.morph_weights)
-                {
-                    *weight = given;
-                }
+        let mut rest_weights = vec![0.0; layout.shapes()];
+        for (instance, &(start, count)) in model.instances.iter().zip(&layout.weights) {
+            for (weight, &given) in rest_weights[start..start + count].iter_mut().zip(&instance.morph_weights)
+            {
+                *weight = given;
             }
         }
-        Self { draws, copies, bindings, rest, bones: rig.bones(), picker: None }
+        let draws = DrawSet::with_layout(Arc::clone(&loaded), layout, copies);
+        Self { draws, copies, bindings, rest, rest_weights, bones: rig.bones(), picker: None }
     }
 
     pub(super) fn is_of(&self, loaded: &Arc<LoadedModel>, copies: usize) -> bool {
@@ -62,18 +63,24 @@ impl CastGroup {
         self.picker.get_or_insert_with(|| GroupPicker::new(&loaded.model))
     }
 
-    /// Poses a copy at `place`. Returns the box around it in the scene. Allocates nothing.
+    /// Poses a copy at `place`, at rest without a pose. Returns the box around it in the scene. Allocates nothing.
     pub(super) fn pose(
         &mut self,
         level: SimdLevel,
         copy: usize,
         place: Mat4,
-        pose: Option<&RootPoses>,
+        pose: Option<&ThingPose>,
     ) -> AxisBox {
-        let fits = |pose: &&RootPoses| pose.matrices().len() == self.bones;
-        let pose = pose.filter(fits).unwrap_or(&self.rest);
+        let fits = |pose: &&ThingPose| pose.to_root.matrices().len() == self.bones;
+        let shown = pose.filter(fits);
+        let pose = shown.map_or(&self.rest, |shown| &shown.to_root);
         let loaded = Arc::clone(self.draws.loaded());
-        let (layout, palettes, _) = self.draws.write(copy);
+        let (layout, palettes, weights) = self.draws.write(copy);
+        // A pose has the weights of all instances one after another, too.
+        let shapes = shown.map_or(&self.rest_weights, |shown| &shown.shapes);
+        if shapes.len() == self.rest_weights.len() {
+            weights[..shapes.len()].copy_from_slice(shapes);
+        }
         let scene_from_model = Affine::from(place);
         let (skins, rigid) = palettes.split_at_mut(layout.rigid);
         for (binding, &start) in self.bindings.iter().zip(&layout.skins) {

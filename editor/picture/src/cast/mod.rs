@@ -203,7 +203,7 @@ impl PosedScene {
             if is_placeholder {
                 place.scale = Vec3::ONE;
             }
-            let pose = self.state.things[thing].pose.as_ref().map(|pose| &pose.to_root);
+            let pose = self.state.things[thing].pose.as_ref();
             self.boxes[thing] = self.groups[group].pose(self.level, copy, place.to_matrix(), pose);
             around = around.union(self.boxes[thing]);
         }

@@ -38,6 +38,15 @@ impl GroupPicker {
                 shown.pose.write_to(poses);
             }
         });
+        let mut start = 0;
+        for instance in 0..evaluator.model().instances.len() {
+            let weights = evaluator.morph_weights_mut(instance);
+            let shown = state.pose.as_ref().and_then(|pose| pose.shapes.get(start..start + weights.len()));
+            if let Some(shown) = shown {
+                weights.copy_from_slice(shown);
+            }
+            start += weights.len();
+        }
         pose.refit(evaluator);
         let hit = pose.ray(evaluator, ray, &HitSettings::default())?;
         Some((hit.bone, hit.distance))

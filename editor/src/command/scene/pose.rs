@@ -3,7 +3,8 @@
 use crate::command::Failure;
 use crate::command::time_argument::TimeArgument;
 use dragonfly_anim::fast::matrix::mat4;
-use dragonfly_document::LoadedScene;
+use dragonfly_anim::stage::{StageModel, ThingPose};
+use dragonfly_document::{LoadedScene, ModelShapes, ShapeMesh};
 use serde::Serialize;
 use std::io::{self, Write};
 
@@ -27,6 +28,8 @@ struct RolePoseRow {
     rotation: [f32; 4],
     scale: [f32; 3],
     bones: Vec<SceneBoneRow>,
+    /// Empty without shape keys.
+    shapes: Vec<SceneShapeRow>,
 }
 
 /// A bone in the scene.
@@ -35,6 +38,31 @@ struct SceneBoneRow {
     name: String,
     /// Bone space → the scene, column-major.
     to_scene: [f32; 16],
+}
+
+/// The weight of a shape key.
+#[derive(Serialize)]
+struct SceneShapeRow {
+    mesh: String,
+    shape: String,
+    weight: f32,
+}
+
+impl SceneShapeRow {
+    /// Returns the weights of all shape keys of a model in a pose.
+    fn all_of(model: &StageModel, pose: &ThingPose) -> Vec<Self> {
+        let shapes = ModelShapes::of(model.data());
+        let of_mesh = |mesh: &ShapeMesh| {
+            let weights = pose.shapes.get(model.shapes().range_of(mesh.instance())).unwrap_or(&[]);
+            let row = |(shape, &weight): (&String, &f32)| Self {
+                mesh: mesh.name().to_owned(),
+                shape: shape.clone(),
+                weight,
+            };
+            mesh.shapes().iter().zip(weights).map(row).collect::<Vec<_>>()
+        };
+        shapes.meshes().iter().flat_map(of_mesh).collect()
+    }
 }
 
 impl RolePoses {
@@ -60,7 +88,8 @@ impl RolePoses {
             let state = &shown.things[thing];
             let to_scene = state.transform.to_matrix();
             let model = plan.things()[thing].model.as_ref();
-            let bones = model.zip(state.pose.as_ref()).map_or(Vec::new(), |(model, pose)| {
+            let posed = model.zip(state.pose.as_ref());
+            let bones = posed.map_or(Vec::new(), |(model, pose)| {
                 let bones = model.skeleton().bones.iter().zip(pose.to_root.matrices());
                 let row = |name: &str, to_root| SceneBoneRow {
                     name: name.to_owned(),
@@ -74,6 +103,7 @@ impl RolePoses {
                 rotation: state.transform.rotation.to_array(),
                 scale: state.transform.scale.to_array(),
                 bones,
+                shapes: posed.map_or(Vec::new(), |(model, pose)| SceneShapeRow::all_of(model, pose)),
             }
         });
         Ok(Self {
@@ -84,7 +114,7 @@ impl RolePoses {
         })
     }
 
-    /// Writes position and rotation of the thing, and the positions of its bones.
+    /// Writes position and rotation of the thing, the positions of its bones, and the weights of its shape keys.
     pub(in crate::command) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{}, {} {}", self.file, self.kind, self.role)?;
         for pose in &self.poses {
@@ -94,6 +124,10 @@ impl RolePoses {
             for bone in &pose.bones {
                 let [x, y, z] = [bone.to_scene[12], bone.to_scene[13], bone.to_scene[14]];
                 writeln!(out, "  {} {x:.4} {y:.4} {z:.4}", crate::command::choice::plain(&bone.name))?;
+            }
+            for SceneShapeRow { mesh, shape, weight } in &pose.shapes {
+                let [mesh, shape] = [mesh, shape].map(|name| crate::command::choice::plain(name));
+                writeln!(out, "  {mesh}, shape key {shape}: {weight:.4}")?;
             }
         }
         Ok(())

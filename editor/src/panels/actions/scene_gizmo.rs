@@ -1,7 +1,7 @@
 //! The gizmo of the selected things of a scene: a drag becomes a new text of the script.
 
 use super::scene_camera::distance_of_look;
-use super::scene_ground::heights_on_ground;
+use super::scene_ground::{heights_on_ground, on_ground};
 use crate::panels::request::Effect;
 use crate::panels::scene::{SceneBase, ScriptChange};
 use crate::panels::status::MessageSeverity;
@@ -137,7 +137,9 @@ fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefu
     for (drag, before) in gizmo.drag().bones.iter().zip(gizmo.before()) {
         let (thing, mut now) = (drag.bone as usize, drag.to_parent);
         let height = heights.as_ref().and_then(|heights| heights.get(&thing).copied());
-        now.translation.y = height.unwrap_or(now.translation.y);
+        if let Some(height) = height {
+            now.translation = on_ground(&base.plan, thing, now.translation, height);
+        }
         moment.moved(thing, gizmo.tool, [now, before.to_parent], &mut parts)?;
     }
     let label = match gizmo.tool {

@@ -4,13 +4,13 @@ use super::scene_gizmo::{BaseMoment, joined};
 use super::scene_text::gesture;
 use crate::panels::request::Effect;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text};
+use dragonfly_anim::stage::{PlannedThing, StagePlan};
 use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_picture::PosedScene;
 use dragonfly_picture::gizmo::GizmoView;
-use glam::{DVec3, Vec2};
+use glam::{DVec3, Vec2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -46,14 +46,23 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
         }
         let moment = BaseMoment { base, things: &state, time };
         let placed = |(thing, height): (usize, f32)| {
-            moment.placed(thing, state.things[thing].transform.translation.with_y(height), None)
+            let place = state.things[thing].transform.translation;
+            moment.placed(thing, on_ground(&base.plan, thing, place, height), None)
         };
         let parts: Result<Vec<_>, GestureRefusal> = standing.into_iter().map(placed).collect();
         spliced_text(&base.script, joined(parts?)?)
     })
 }
 
-/// Returns the heights at which these things of a plan are on the ground, meters, by their positions in it: a prop with its lowest point at this time, a role
+/// Returns the place of a thing of a plan on the ground under or over `place`, nearest to its height: that of the ground props of the cast, else of the plane at 0.
+/// `height` is how much higher than the ground its place is. For ground props it is always the plane.
+pub(super) fn on_ground(plan: &StagePlan, thing: usize, place: Vec3, height: f32) -> Vec3 {
+    let is_ground = plan.things().get(thing).is_some_and(PlannedThing::is_ground);
+    let ground = if is_ground { None } else { plan.ground_at(place.as_dvec3()) };
+    place.with_y(ground.unwrap_or(0.0) as f32 + height)
+}
+
+/// Returns how much higher than the ground the places of these things of a plan are while they are on it, meters, by their positions in it: a prop with its lowest point at this time, a role
 /// or a mark with its place. None for things in the air, and for paths.
 pub(super) fn heights_on_ground(
     scene: &SceneView,
