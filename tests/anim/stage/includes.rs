@@ -6,7 +6,8 @@ use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::schedule::resolve;
 use dragonfly_anim::stage::script::{
-    IncludedScripts, MOST_BYTES, MOST_INCLUDES, ScriptContext, ScriptError, ScriptTree, StageScript,
+    IncludedScripts, MOST_BYTES, MOST_ERRORS, MOST_INCLUDES, ScriptContext, ScriptError, ScriptTree,
+    StageScript,
 };
 use dragonfly_anim::stage::splice::{TextSplices, remove_attribute};
 use dragonfly_anim::stage::time::StageTime;
@@ -354,7 +355,21 @@ fn the_limits_of_a_script_hold_for_all_included_files_together() {
         .collect();
     let huge: Vec<(&str, &str)> = huge.iter().map(|(name, text)| (&**name, &**text)).collect();
     let kept: usize = context("duel.xml", &text, &huge).files.texts().map(|(_, text)| text.len()).sum();
-    assert!(kept <= MOST_BYTES, "{kept}");
+    assert!(kept <= MOST_BYTES, MOST_ERRORS, "{kept}");
+}
+
+/// With a place for each error again, these take hours.
+#[test]
+fn a_hundred_thousand_includes_of_a_wrong_file_are_its_errors_once() {
+    let text = format!("<script version=\"1\">{}</script>", "<include src=\"a.xml\"/>".repeat(100_000));
+    let tables = "<script version=\"1\"><plai/></script>";
+    let found = errors(&text, &[("a.xml", tables)]);
+    assert!(found.starts_with("a.xml:1:22: <plai> is no element of <script>") && found.lines().count() == 1);
+    let names = "<script version=\"1\"><shot who=\"none\"/></script>";
+    let found = errors(&text, &[("a.xml", names)]);
+    assert!(found.starts_with("a.xml:1:32: ") && found.lines().count() == 1, "{found}");
+    let found = errors(&text, &[]);
+    assert!(found.lines().count() <= MOST_ERRORS, "{}", found.lines().count());
 }
 
 #[test]

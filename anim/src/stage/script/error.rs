@@ -60,12 +60,17 @@ impl std::error::Error for ScriptError {}
 /// Largest number of errors that are collected; a text that is wrong throughout needs no more.
 pub const MOST_ERRORS: usize = 100;
 
+/// Largest number of errors that are looked at again because a file is included again: what a hostile script costs.
+const MOST_REPEATED: usize = 10_000;
+
 /// Errors that are collected from one text.
 #[derive(Debug)]
 pub(crate) struct ErrorList<'a> {
     lines: &'a LineIndex,
     parts: &'a [IncludedPart],
     errors: Vec<ScriptError>,
+    /// Number of errors that were there already.
+    repeated: usize,
 }
 
 impl<'a> ErrorList<'a> {
@@ -75,23 +80,37 @@ impl<'a> ErrorList<'a> {
 
     /// Creates a list for a text with what it includes.
     pub(in crate::stage) fn with_parts(lines: &'a LineIndex, parts: &'a [IncludedPart]) -> Self {
-        Self { lines, parts, errors: Vec::new() }
+        Self { lines, parts, errors: Vec::new(), repeated: 0 }
     }
 
-    /// Adds an error, unless there are too many.
+    /// Adds an error, unless there are too many. One that a file has, is reported once, however often that is included.
     pub(crate) fn add(&mut self, range: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        if !self.is_full() {
-            self.push(located(self.lines, self.parts, range, message.into(), help.into()));
+        if self.is_full() {
+            return;
         }
+        let message = message.into();
+        // Before its line and column are counted.
+        let part = IncludedPart::at(self.parts, range.start);
+        if part.is_some_and(|part| self.is_known(&part.file, range.start - part.base, &message)) {
+            self.repeated += 1;
+            return;
+        }
+        self.errors.push(located(self.lines, self.parts, range, message, help.into()));
     }
 
-    /// Adds an error that has its place, unless there are too many. One that a file has, is reported once, however often that is included.
+    /// Adds an error that has its place, unless there are too many.
     pub(in crate::stage) fn push(&mut self, error: ScriptError) {
-        let is_same = |other: &ScriptError| other.inside == error.inside && other.message == error.message;
-        let is_known = error.inside.is_some() && self.errors.iter().any(is_same);
-        if !self.is_full() && !is_known {
+        if !self.is_full() {
             self.errors.push(error);
         }
+    }
+
+    /// Returns whether there is this error at a byte of a file already.
+    fn is_known(&self, file: &str, at: usize, message: &str) -> bool {
+        let is_there = |inside: &IncludedPlace| &*inside.file == file && inside.range.start == at;
+        let is_same =
+            |error: &ScriptError| error.message == message && error.inside.as_deref().is_some_and(is_there);
+        self.errors.iter().any(is_same)
     }
 
     /// Returns the place of a byte: in its own file, for a byte of an included one.
@@ -101,7 +120,7 @@ impl<'a> ErrorList<'a> {
 
     /// Returns whether no more errors are added.
     pub(crate) fn is_full(&self) -> bool {
-        self.errors.len() >= MOST_ERRORS
+        self.errors.len() >= MOST_ERRORS || self.repeated >= MOST_REPEATED
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -6,7 +6,8 @@
 use super::included::{IncludeFault, MOST_INCLUDES, beside, source, too_large};
 use super::origin::{ElementOrigin, IncludedPart, IncludedPlace};
 use super::{
-    ErrorList, MOST_BYTES, MOST_NODES, ScriptContext, ScriptElement, ScriptError, ScriptTree, suggestion,
+    ErrorList, MOST_BYTES, MOST_ERRORS, MOST_NODES, ScriptContext, ScriptElement, ScriptError, ScriptTree,
+    suggestion,
 };
 use crate::stage::project::StageProject;
 use crate::stage::time::StageRate;
@@ -38,8 +39,8 @@ pub(super) fn merge(tree: &mut ScriptTree, context: &ScriptContext) -> Vec<Scrip
         match fault {
             Fault::Include { range, message, help } => errors.add(range, message, help),
             Fault::File { name, file, errors: list } => {
+                let place = tree.lines.place(name.start);
                 for error in &*list {
-                    let place = tree.lines.place(name.start);
                     let (range, inside) = (error.range.clone(), error.place);
                     let inside = IncludedPlace { file: Arc::clone(&file), range, place: inside };
                     let (range, inside) = (name.clone(), Some(Box::new(inside)));
@@ -69,6 +70,7 @@ struct Merging<'a> {
     base: usize,
     bytes: usize,
     nodes: usize,
+    /// Whether no more is included.
     is_full: bool,
     faults: Vec<Fault>,
 }
@@ -86,6 +88,7 @@ impl Merging<'_> {
             let outermost = around.unwrap_or(include);
             if let Err(fault) = self.include(elements, (include, outermost), &file) {
                 self.faults.push(fault);
+                self.is_full |= self.faults.len() >= MOST_ERRORS;
             }
         }
     }
@@ -112,7 +115,15 @@ impl Merging<'_> {
         let tree = match self.context.files.tree(file) {
             Ok(tree) => tree,
             Err(IncludeFault::Wrong(errors)) => {
-                return Err(Fault::File { name, file: Arc::clone(file), errors });
+                // Its errors are the same, however often it is included.
+                let is_known = |fault: &Fault| match fault {
+                    Fault::File { file: known, .. } => known == file,
+                    Fault::Include { .. } => false,
+                };
+                return match self.faults.iter().any(is_known) {
+                    true => Ok(()),
+                    false => Err(Fault::File { name, file: Arc::clone(file), errors }),
+                };
             }
             Err(IncludeFault::Missing(missing)) => {
                 // As this include would write them.
