@@ -107,8 +107,8 @@ fn sizes_that_are_too_large_together_are_refused_before_anything_is_unpacked() {
 }
 
 #[test]
-fn a_directory_that_says_to_have_very_many_files_is_refused_without_the_memory_for_them() {
-    // A megabyte that says to have a million files, in the format for more than 4 GiB.
+fn a_directory_that_announces_very_many_files_is_refused_without_the_memory_for_them() {
+    // A megabyte that announces a million files, in the format for more than 4 GiB.
     let mut bytes = write_archive(&[file("zeros", vec![1; 10])]).expect("an archive");
     let directory = bytes.windows(4).position(|four| four == b"PK\x01\x02").expect("a directory");
     let entry = bytes[directory..bytes.len() - 22].to_vec();
@@ -138,7 +138,7 @@ fn a_symbolic_link_and_an_encrypted_file_are_refused() {
     let whole = write_archive(&[file("link", "target")]).expect("an archive");
     let directory = whole.windows(4).position(|four| four == b"PK\x01\x02").expect("a directory");
     let mut link = whole.clone();
-    // Made on Unix, where the upper half of the attributes says what it is.
+    // Made on Unix, where the upper half of the attributes has the kind of file.
     link[directory + 5] = 3;
     link[directory + 40..directory + 42].copy_from_slice(&0o120_777_u16.to_le_bytes());
     let mut encrypted = whole;

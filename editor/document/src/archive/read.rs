@@ -65,7 +65,7 @@ pub fn read_archive(bytes: &[u8]) -> Result<Vec<ArchivedFile>, ArchiveError> {
     Ok(files)
 }
 
-/// Returns whether a directory at the end may be one of 64 bits. The library allocates memory for as many files as that says to have, up to one
+/// Returns whether a directory at the end may be one of 64 bits. The library allocates memory for all files that one announces, up to one
 /// for each byte of the archive.
 fn is_zip64(bytes: &[u8]) -> bool {
     let tail = &bytes[bytes.len().saturating_sub(LONGEST_END)..];
