@@ -107,6 +107,49 @@ fn sizes_that_are_too_large_together_are_refused_before_anything_is_unpacked() {
 }
 
 #[test]
+fn a_directory_that_announces_very_many_files_is_refused_without_the_memory_for_them() {
+    // A megabyte that announces a million files, in the format for more than 4 GiB.
+    let mut bytes = write_archive(&[file("zeros", vec![1; 10])]).expect("an archive");
+    let directory = bytes.windows(4).position(|four| four == b"PK\x01\x02").expect("a directory");
+    let entry = bytes[directory..bytes.len() - 22].to_vec();
+    bytes.truncate(directory);
+    bytes.resize(1 << 20, 0);
+    let (start, count) = (bytes.len() as u64, 1_u64 << 20);
+    bytes.extend(&entry);
+    let end = bytes.len() as u64;
+    bytes.extend(b"PK\x06\x06");
+    bytes.extend(44_u64.to_le_bytes());
+    bytes.extend([45, 0, 45, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    for long in [count, count, 1 << 50, start] {
+        bytes.extend(long.to_le_bytes());
+    }
+    bytes.extend(b"PK\x06\x07\0\0\0\0");
+    bytes.extend(end.to_le_bytes());
+    bytes.extend(1_u32.to_le_bytes());
+    bytes.extend(b"PK\x05\x06\0\0\0\0");
+    bytes.extend([0xff; 12]);
+    bytes.extend([0; 2]);
+    let error = read_archive(&bytes).expect_err("too many");
+    assert_eq!(error.to_string(), "the archive: the format for more than 4 GiB is not supported");
+}
+
+#[test]
+fn a_symbolic_link_and_an_encrypted_file_are_refused() {
+    let whole = write_archive(&[file("link", "target")]).expect("an archive");
+    let directory = whole.windows(4).position(|four| four == b"PK\x01\x02").expect("a directory");
+    let mut link = whole.clone();
+    // Made on Unix, where the upper half of the attributes has the kind of file.
+    link[directory + 5] = 3;
+    link[directory + 40..directory + 42].copy_from_slice(&0o120_777_u16.to_le_bytes());
+    let mut encrypted = whole;
+    encrypted[directory + 8] |= 1;
+    for (bytes, feature) in [(link, "a symbolic link"), (encrypted, "encryption")] {
+        let name = "link".to_owned();
+        assert_eq!(read_archive(&bytes), Err(ArchiveError::Unsupported { name, feature }));
+    }
+}
+
+#[test]
 fn no_damaged_archive_panics_and_none_is_read_as_other_files() {
     let mut random = Random::new(seed(132));
     let files = [file("a.xml", "<script/>".repeat(50)), file("b/c.bin", vec![7; 300])];

@@ -16,7 +16,7 @@ use std::sync::Arc;
 const MOST_SUGGESTED: usize = 100;
 
 /// Distinguishes a job from those before.
-type JobMark = Arc<()>;
+type IncludeMark = Arc<()>;
 
 /// A file that was read, or is missing.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ struct ReadInclude {
 /// The files that a job has read, by their names.
 #[derive(Debug)]
 pub(super) struct SceneIncludeNews {
-    mark: JobMark,
+    mark: IncludeMark,
     /// The reason why there is nothing, if the job failed.
     read: Result<BTreeMap<String, ReadInclude>, String>,
 }
@@ -41,7 +41,7 @@ pub(super) struct SceneIncludeNews {
 pub(super) struct SceneIncludes {
     files: IncludedScripts,
     read: BTreeMap<String, ReadInclude>,
-    job: Option<(JobMark, Job)>,
+    job: Option<(IncludeMark, Job)>,
 }
 
 /// Reads the files that a script called `name` includes, directly or through others: those of `texts` are known already.
@@ -108,7 +108,7 @@ impl SceneIncludes {
         if self.job.is_some() {
             return;
         }
-        let mark = JobMark::default();
+        let mark = IncludeMark::default();
         let known: BTreeMap<String, ReadInclude> = self
             .read
             .iter()
@@ -187,7 +187,7 @@ struct ReadOrder {
 }
 
 impl ReadOrder {
-    fn start(self, document: &Address<JobNews>, mark: JobMark) -> std::io::Result<Job> {
+    fn start(self, document: &Address<JobNews>, mark: IncludeMark) -> std::io::Result<Job> {
         let other = Arc::clone(&mark);
         Job::start(
             document,

@@ -162,7 +162,7 @@ fn frames_of_an_included_script_are_its_own_and_its_size_and_seed_count_not() {
         ]
     );
     assert_eq!((script.seed(), script.size(), script.rate().frame(24).seconds()), (3, [1280, 720], 1.0));
-    // As if it were read alone, a project says how many frames a second has.
+    // As if it were read alone, the frames of a second are those of the project.
     let project = StageProject::read("<project version=\"1\" fps=\"6\"/>").unwrap();
     let (intro, outer) = (
         INTRO.replace(" fps=\"12\"", ""),
@@ -217,7 +217,7 @@ fn names_of_actions_are_those_of_their_file_and_things_of_one_id_are_one_thing()
     let who = INTRO.replace("<title id=\"b\" text=\"x\" dur=\"6f\"/>", "<shot who=\"door\"/>");
     let cast = text.replace("<cast>", "<cast><camera id=\"door\"/>");
     assert!(errors(&cast, &[("intro.xml", &who)]).contains("no thing of the cast has the id \"door\""));
-    // What a file includes, it sees as its own cast.
+    // A file sees the things of those that it includes as its own cast.
     let (middle, shot) = (
         "<script version=\"1\"><include src=\"intro.xml\"/><shot who=\"wide\"/></script>",
         "<shot who=\"wide\"/>",

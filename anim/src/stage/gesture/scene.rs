@@ -57,7 +57,7 @@ pub(super) const NO_PLACE: &str = "There is no place for it in the script";
 ///
 /// # Errors
 ///
-/// The reason, which says where it is.
+/// The reason, with the name of that text.
 pub fn in_this_text(tree: &ScriptTree, element: usize) -> Result<(), GestureRefusal> {
     let Some(element) = tree.elements().get(element) else { return Ok(()) };
     let id =

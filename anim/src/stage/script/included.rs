@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Largest number of files that are included one through another.
 pub const MOST_INCLUDES: usize = 8;
 
-/// What a script is read with.
+/// The surroundings of a script, with which it is read.
 #[derive(Clone, Debug, Default)]
 pub struct ScriptContext {
     /// Its file, relative to the folder of the document; files that it includes are relative to this one. Empty for a text without a file.
@@ -149,7 +149,7 @@ impl IncludedScripts {
     }
 }
 
-/// What is wrong with an included file.
+/// The reason why an included file has no elements.
 pub(super) enum IncludeFault {
     /// It is no script: its errors, with their places in it.
     Wrong(Arc<[ScriptError]>),

@@ -1,4 +1,4 @@
-//! Includes replaced by what they bring: the elements of other files, behind those of the text.
+//! Includes replaced by what they bring: the elements of other files, after those of the text.
 //!
 //! Every `include` has elements of its own, also where several name the same file, because each of them plays at its own time. Bytes and
 //! nodes of all of them together have the limits of one script, so that a file of a thousand includes of a large file is an error.
@@ -37,8 +37,8 @@ pub(super) fn merge(tree: &mut ScriptTree, context: &ScriptContext) -> Vec<Scrip
     let mut errors = ErrorList::with_parts(&tree.lines, &tree.parts);
     for fault in faults {
         match fault {
-            Fault::Include { range, message, help } => errors.add(range, message, help),
-            Fault::File { name, file, errors: list } => {
+            MergeFault::Include { range, message, help } => errors.add(range, message, help),
+            MergeFault::File { name, file, errors: list } => {
                 let place = tree.lines.place(name.start);
                 for error in &*list {
                     let (range, inside) = (error.range.clone(), error.place);
@@ -53,7 +53,7 @@ pub(super) fn merge(tree: &mut ScriptTree, context: &ScriptContext) -> Vec<Scrip
 }
 
 /// Something that is wrong.
-enum Fault {
+enum MergeFault {
     /// With an `include`, at these bytes.
     Include { range: Range<usize>, message: String, help: String },
     /// With the text of a file, which an `include` with this name in the text of the script brings.
@@ -66,13 +66,13 @@ struct Merging<'a> {
     /// The files around the includes that are next, the script first.
     chain: Vec<Arc<str>>,
     parts: Vec<IncludedPart>,
-    /// The first byte that stands for no file yet.
+    /// The first byte that no file has yet.
     base: usize,
     bytes: usize,
     nodes: usize,
     /// Whether no more is included.
     is_full: bool,
-    faults: Vec<Fault>,
+    faults: Vec<MergeFault>,
 }
 
 impl Merging<'_> {
@@ -98,10 +98,11 @@ impl Merging<'_> {
         elements: &mut Vec<ScriptElement>,
         (include, outermost): (usize, usize),
         file: &Arc<str>,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), MergeFault> {
         let at = elements[include].value_range("src");
         let name = elements[outermost].name.clone();
-        let fault = |message: String, help: String| Err(Fault::Include { range: at.clone(), message, help });
+        let fault =
+            |message: String, help: String| Err(MergeFault::Include { range: at.clone(), message, help });
         if let Some(first) = self.chain.iter().position(|other| other == file) {
             let names: Vec<&str> = self.chain[first..].iter().chain([file]).map(|name| &**name).collect();
             return fault(format!("files include each other: {}", names.join(" → ")), String::new());
@@ -116,13 +117,13 @@ impl Merging<'_> {
             Ok(tree) => tree,
             Err(IncludeFault::Wrong(errors)) => {
                 // Its errors are the same, however often it is included.
-                let is_known = |fault: &Fault| match fault {
-                    Fault::File { file: known, .. } => known == file,
-                    Fault::Include { .. } => false,
+                let is_known = |fault: &MergeFault| match fault {
+                    MergeFault::File { file: known, .. } => known == file,
+                    MergeFault::Include { .. } => false,
                 };
                 return match self.faults.iter().any(is_known) {
                     true => Ok(()),
-                    false => Err(Fault::File { name, file: Arc::clone(file), errors }),
+                    false => Err(MergeFault::File { name, file: Arc::clone(file), errors }),
                 };
             }
             Err(IncludeFault::Missing(missing)) => {
@@ -168,7 +169,7 @@ impl Merging<'_> {
             elements: added.clone(),
             end: part + 1,
             base: self.base,
-            tree: Arc::clone(&tree),
+            lines: tree.lines.clone(),
         });
         self.base += tree.text.len() + 1;
         self.chain.push(Arc::clone(file));

@@ -1,11 +1,10 @@
-//! Where the elements of a script are written: in its text, in its project, or in a file that it includes.
+//! The origins of the elements of a script: its text, its project, or a file that it includes.
 //!
-//! Elements of included files have ranges too: bytes behind the end of the text, file after file. So what reports an error at a range
+//! Elements of included files have ranges too: bytes after the end of the text, file after file. So what reports an error at a range
 //! need not know where that is, and a splice of the text at such a range finds no bytes there.
 
 use super::error::ScriptError;
 use super::text_place::{LineIndex, TextPlace};
-use super::tree::ScriptTree;
 use crate::stage::time::StageRate;
 use std::fmt;
 use std::ops::Range;
@@ -14,7 +13,7 @@ use std::sync::Arc;
 /// Added to the bytes of what a script shares with its project: more than all texts have, so that no byte of another one is meant.
 pub(in crate::stage) const SHARED: usize = 1 << 30;
 
-/// Where an element of a script is written.
+/// The text that has an element of a script.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ElementOrigin {
     /// In the text of the script.
@@ -22,7 +21,7 @@ pub enum ElementOrigin {
     Text,
     /// In the cast of the project that the script belongs to. Its bytes are the end of the script's text then.
     Project,
-    /// In an included file: the number of the included part. Its bytes are behind the end of the script's text then.
+    /// In an included file: the number of the included part. Its bytes are after the end of the script's text then.
     Included(usize),
 }
 
@@ -48,8 +47,8 @@ impl fmt::Display for IncludedPlace {
 pub(in crate::stage) struct IncludedPart {
     /// The file, relative to the folder of the document.
     pub(super) file: Arc<str>,
-    /// Its own tree.
-    pub(super) tree: Arc<ScriptTree>,
+    /// The lines of its text.
+    pub(super) lines: LineIndex,
     /// The frame rate that its times in frames have.
     pub(super) rate: StageRate,
     /// The element of the `include`.
@@ -62,7 +61,7 @@ pub(in crate::stage) struct IncludedPart {
     pub(super) elements: Range<usize>,
     /// The number of the part after the last one that is included by it or by what it includes.
     pub(super) end: usize,
-    /// The first of the bytes that stand for the file.
+    /// The first of the bytes that the file has in the ranges of its elements.
     pub(super) base: usize,
 }
 
@@ -77,7 +76,7 @@ impl IncludedPart {
 
     /// Returns line and column in the file of a byte.
     pub(super) fn place(&self, at: usize) -> TextPlace {
-        self.tree.place(at.saturating_sub(self.base))
+        self.lines.place(at.saturating_sub(self.base))
     }
 }
 

@@ -27,7 +27,7 @@ struct KnownThing {
     parts: Vec<usize>,
 }
 
-/// What a file sees: the file of an element.
+/// The names that a file sees: the file of an element.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ScriptScope<'a> {
     names: &'a ScriptNames,

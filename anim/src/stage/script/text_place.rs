@@ -19,11 +19,11 @@ impl fmt::Display for TextPlace {
     }
 }
 
-/// The starts of the lines of a text.
+/// The starts of the lines of a text. A clone is cheap.
 #[derive(Clone, Debug)]
 pub(in crate::stage) struct LineIndex {
     text: Arc<str>,
-    starts: Vec<usize>,
+    starts: Arc<[usize]>,
 }
 
 impl LineIndex {

@@ -32,7 +32,7 @@ pub struct ScriptElement {
     pub range: Range<usize>,
     /// Bytes of its name in the start tag.
     pub name: Range<usize>,
-    /// Where it is written. Only those that the text itself has can be changed in it, and only their bytes are bytes of it.
+    /// The text that has it. Only those that the text itself has can be changed in it, and only their bytes are bytes of it.
     pub origin: ElementOrigin,
     /// Its attributes, in the order of the text. Those of other namespaces are left out.
     pub attributes: Vec<ScriptAttribute>,
@@ -77,7 +77,7 @@ pub struct ScriptTree {
     pub(super) text: Arc<str>,
     pub(super) lines: LineIndex,
     pub(super) elements: Vec<ScriptElement>,
-    /// What the includes of the text bring, each before what it includes itself.
+    /// The parts that the includes of the text bring, each before what it includes itself.
     pub(super) parts: Arc<[IncludedPart]>,
     /// Number of nodes of the text: elements, texts and comments.
     pub(super) nodes: usize,

@@ -1,7 +1,7 @@
 //! Archives of projects: ZIP files with the files of one folder.
 //!
-//! Only what such an archive needs is written and read: files that are stored or deflated, below 4 GiB, without encryption. Names lead
-//! downwards only, and what an archive may unpack to is limited before memory is allocated.
+//! The crate `zip` knows the format. Only what such an archive needs is written and read: files that are stored or deflated, without
+//! encryption, and no links. Names lead downwards only, and what an archive may unpack to is limited before memory is allocated.
 
 mod read;
 mod write;
@@ -32,7 +32,7 @@ pub struct ArchivedFile {
 pub enum ArchiveError {
     /// The bytes are no ZIP archive, or damaged.
     #[error("this is not a ZIP archive, or it is damaged: {0}")]
-    Damaged(&'static str),
+    Damaged(String),
     /// It uses a feature of the format that is not supported.
     #[error("{name}: {feature} is not supported")]
     Unsupported {
@@ -61,22 +61,13 @@ pub enum ArchiveError {
     /// The archive itself would have too many bytes to be read again.
     #[error("the archive would have {0} bytes; at most {FILE_BYTES} can be unpacked")]
     TooLong(u64),
+    /// It cannot be written.
+    #[error("the archive cannot be written: {0}")]
+    Unwritten(String),
     /// The contents of a file are not those that were packed.
     #[error("{0}: its contents are damaged")]
     Checksum(String),
 }
-
-/// Signatures of the parts of an archive.
-const LOCAL: u32 = 0x0403_4b50;
-const CENTRAL: u32 = 0x0201_4b50;
-const END: u32 = 0x0605_4b50;
-
-/// Methods by which a file is packed.
-const STORED: u16 = 0;
-const DEFLATED: u16 = 8;
-
-/// Flag for names in UTF-8.
-const UTF8: u16 = 1 << 11;
 
 /// Returns the name if it leads to a file below a folder.
 fn checked_name(name: &str) -> Result<(), ArchiveError> {

@@ -1,22 +1,19 @@
 //! Reads an archive. Nothing in it is trusted: not its names, not its sizes.
 
-use super::{ArchiveError, ArchivedFile, CENTRAL, DEFLATED, END, LOCAL, MOST_UNPACKED, STORED, checked_name};
-use miniz_oxide::inflate::decompress_to_vec_with_limit;
+use super::{ArchiveError, ArchivedFile, MOST_FILES, MOST_UNPACKED, checked_name};
 use std::collections::HashSet;
+use std::io::{Cursor, Read};
+use zip::read::{ArchiveOffset, Config};
+use zip::result::ZipError;
+use zip::{CompressionMethod, ZipArchive};
 
-/// Length of the record at the end, without its comment.
-const END_LENGTH: usize = 22;
+/// Signature of the record at the end, and more than the length of the longest one with its comment of up to 65535 bytes.
+const END: &[u8] = b"PK\x05\x06";
+const LONGEST_END: usize = 1 << 17;
 
-/// An entry of the directory at the end of an archive.
-struct DirectoryEntry {
-    name: String,
-    flags: u16,
-    method: u16,
-    checksum: u32,
-    packed: usize,
-    size: u64,
-    offset: usize,
-}
+/// Signature of what leads to a directory of 64 bits, and its length.
+const LOCATOR: &[u8] = b"PK\x06\x07";
+const LOCATOR_LENGTH: usize = 20;
 
 /// Returns the files of an archive, in their order. Folders are left out.
 ///
@@ -24,110 +21,83 @@ struct DirectoryEntry {
 ///
 /// It is damaged, uses what is not supported, has names that lead elsewhere, or would unpack to too much.
 pub fn read_archive(bytes: &[u8]) -> Result<Vec<ArchivedFile>, ArchiveError> {
-    let entries = directory(bytes)?;
-    let total = entries.iter().try_fold(0_u64, |sum, entry| sum.checked_add(entry.size));
-    if total.is_none_or(|total| total > MOST_UNPACKED) {
+    if is_zip64(bytes) {
+        let (name, feature) = ("the archive".to_owned(), "the format for more than 4 GiB");
+        return Err(ArchiveError::Unsupported { name, feature });
+    }
+    let config = Config { archive_offset: ArchiveOffset::Known(0) };
+    let opened = ZipArchive::with_config(config, Cursor::new(bytes));
+    let mut archive = opened.map_err(|error| refused("the archive", error))?;
+    if archive.len() > MOST_FILES {
+        return Err(ArchiveError::TooMany(archive.len()));
+    }
+    // The library keeps one of those with the same name.
+    if archive.has_duplicate_names() {
+        return Err(ArchiveError::Twice("one of its files".to_owned()));
+    }
+    let mut total = 0_u64;
+    for index in 0..archive.len() {
+        let entry = archive.by_index_data(index).map_err(|error| refused("the archive", error))?;
+        total = total.checked_add(entry.size()).ok_or(ArchiveError::TooLarge)?;
+    }
+    if total > MOST_UNPACKED {
         return Err(ArchiveError::TooLarge);
     }
     let mut names = HashSet::new();
     let mut files = Vec::new();
-    for entry in entries.into_iter().filter(|entry| !(entry.name.ends_with('/') && entry.size == 0)) {
-        checked_name(&entry.name)?;
+    for index in 0..archive.len() {
+        let Some((name, size)) = named(&archive, index)? else { continue };
         // On some systems the two would be the same file.
-        if !names.insert(entry.name.to_lowercase()) {
-            return Err(ArchiveError::Twice(entry.name));
+        if !names.insert(name.to_lowercase()) {
+            return Err(ArchiveError::Twice(name));
         }
-        let contents = unpacked(bytes, &entry)?;
-        files.push(ArchivedFile { name: entry.name, bytes: contents });
+        let damaged = || ArchiveError::Checksum(name.clone());
+        let file = archive.by_index(index).map_err(|error| refused(&name, error))?;
+        let mut contents = Vec::new();
+        // A file that unpacks to more than its stated size is refused before the memory for it is allocated. At the end of a file, the
+        // library compares the checksum.
+        file.take(size + 1).read_to_end(&mut contents).map_err(|_| damaged())?;
+        if contents.len() as u64 != size {
+            return Err(damaged());
+        }
+        files.push(ArchivedFile { name, bytes: contents });
     }
     Ok(files)
 }
 
-/// Returns the entries of the directory.
-fn directory(bytes: &[u8]) -> Result<Vec<DirectoryEntry>, ArchiveError> {
-    let cut = || ArchiveError::Damaged("it ends too early");
-    // A comment of up to 65535 bytes may follow.
-    let last = bytes.len().checked_sub(END_LENGTH).ok_or_else(cut)?;
-    let first = last.saturating_sub(usize::from(u16::MAX));
-    let end = (first..=last).rev().find(|&at| {
-        let comment = short(bytes, at + 20).map(usize::from);
-        long(bytes, at) == Some(END) && comment.is_some_and(|length| at + END_LENGTH + length == bytes.len())
-    });
-    let end = end.ok_or(ArchiveError::Damaged("it has no directory"))?;
-    let whole = |feature| ArchiveError::Unsupported { name: "the archive".to_owned(), feature };
-    let count = short(bytes, end + 10).ok_or_else(cut)?;
-    if short(bytes, end + 4) != Some(0) || short(bytes, end + 8) != Some(count) {
-        return Err(whole("an archive of several parts"));
-    }
-    let start = long(bytes, end + 16).ok_or_else(cut)?;
-    if start == u32::MAX || count == u16::MAX {
-        return Err(whole("the format for more than 4 GiB"));
-    }
-    let mut at = start as usize;
-    let mut entries = Vec::new();
-    for _ in 0..count {
-        let (entry, next) = entry(bytes, at)?;
-        entries.push(entry);
-        at = next;
-    }
-    Ok(entries)
+/// Returns whether a directory at the end may be one of 64 bits. The library allocates memory for all files that one announces, up to one
+/// for each byte of the archive.
+fn is_zip64(bytes: &[u8]) -> bool {
+    let tail = &bytes[bytes.len().saturating_sub(LONGEST_END)..];
+    tail.windows(LOCATOR_LENGTH + 4).any(|window| window.starts_with(LOCATOR) && window.ends_with(END))
 }
 
-/// Returns the entry of the directory at `at`, and where the next one is.
-fn entry(bytes: &[u8], at: usize) -> Result<(DirectoryEntry, usize), ArchiveError> {
-    let cut = || ArchiveError::Damaged("its directory is cut off");
-    let short = |offset: usize| short(bytes, at.saturating_add(offset)).ok_or_else(cut);
-    let long = |offset: usize| long(bytes, at.saturating_add(offset)).ok_or_else(cut);
-    if long(0)? != CENTRAL {
-        return Err(ArchiveError::Damaged("its directory is not where it should be"));
+/// Returns name and size of a file; `None` for a folder.
+fn named(archive: &ZipArchive<Cursor<&[u8]>>, index: usize) -> Result<Option<(String, u64)>, ArchiveError> {
+    let entry = archive.by_index_data(index).map_err(|error| refused("the archive", error))?;
+    let name = str::from_utf8(entry.name_raw());
+    let name = name.map_err(|_| ArchiveError::Damaged("a name is not UTF-8".to_owned()))?.to_owned();
+    if name.ends_with('/') && entry.size() == 0 {
+        return Ok(None);
     }
-    let [name_length, extra, comment] = [28, 30, 32].map(|offset| short(offset).map(usize::from));
-    let (start, length) = (at + 46, name_length?);
-    let name = bytes.get(start..start + length).ok_or_else(cut)?;
-    let name = str::from_utf8(name).map_err(|_| ArchiveError::Damaged("a name is not UTF-8"))?;
-    let entry = DirectoryEntry {
-        name: name.to_owned(),
-        flags: short(8)?,
-        method: short(10)?,
-        checksum: long(16)?,
-        packed: long(20)? as usize,
-        size: u64::from(long(24)?),
-        offset: long(42)? as usize,
-    };
-    Ok((entry, start + length + extra? + comment?))
+    checked_name(&name)?;
+    let unsupported = |feature| Err(ArchiveError::Unsupported { name: name.clone(), feature });
+    if entry.encrypted() {
+        return unsupported("encryption");
+    }
+    if entry.is_symlink() {
+        return unsupported("a symbolic link");
+    }
+    match entry.compression() {
+        CompressionMethod::Stored | CompressionMethod::Deflated => Ok(Some((name, entry.size()))),
+        _ => unsupported("this kind of compression"),
+    }
 }
 
-/// Returns the contents of a file.
-fn unpacked(bytes: &[u8], entry: &DirectoryEntry) -> Result<Vec<u8>, ArchiveError> {
-    let unsupported = |feature| ArchiveError::Unsupported { name: entry.name.clone(), feature };
-    if entry.flags & 1 != 0 {
-        return Err(unsupported("encryption"));
+/// Returns the reason why a file, or the archive, cannot be read.
+fn refused(name: &str, error: ZipError) -> ArchiveError {
+    match error {
+        ZipError::UnsupportedArchive(feature) => ArchiveError::Unsupported { name: name.to_owned(), feature },
+        other => ArchiveError::Damaged(other.to_string()),
     }
-    let cut = || ArchiveError::Damaged("a file is cut off");
-    if long(bytes, entry.offset) != Some(LOCAL) {
-        return Err(ArchiveError::Damaged("a file is not where the directory says"));
-    }
-    let [name, extra] = [26, 28].map(|offset| short(bytes, entry.offset + offset).map(usize::from));
-    let start = entry.offset + 30 + name.ok_or_else(cut)? + extra.ok_or_else(cut)?;
-    let data = bytes.get(start..start.saturating_add(entry.packed)).ok_or_else(cut)?;
-    let size = usize::try_from(entry.size).map_err(|_| ArchiveError::TooLarge)?;
-    let contents = match entry.method {
-        STORED => data.to_vec(),
-        // A file that unpacks to more than its stated size is refused before the memory for it is allocated.
-        DEFLATED => decompress_to_vec_with_limit(data, size)
-            .map_err(|_| ArchiveError::Checksum(entry.name.clone()))?,
-        _ => return Err(unsupported("this kind of compression")),
-    };
-    if contents.len() != size || crc32fast::hash(&contents) != entry.checksum {
-        return Err(ArchiveError::Checksum(entry.name.clone()));
-    }
-    Ok(contents)
-}
-
-fn short(bytes: &[u8], at: usize) -> Option<u16> {
-    bytes.get(at..)?.first_chunk().map(|chunk| u16::from_le_bytes(*chunk))
-}
-
-fn long(bytes: &[u8], at: usize) -> Option<u32> {
-    bytes.get(at..)?.first_chunk().map(|chunk| u32::from_le_bytes(*chunk))
 }

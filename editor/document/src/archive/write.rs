@@ -1,21 +1,15 @@
 //! Writes an archive. The same files give the same bytes: no times are stored.
 
-use super::{
-    ArchiveError, ArchivedFile, CENTRAL, DEFLATED, END, LOCAL, MOST_FILES, MOST_UNPACKED, STORED, UTF8,
-    checked_name,
-};
+use super::{ArchiveError, ArchivedFile, MOST_FILES, MOST_UNPACKED, checked_name};
 use dragonfly_anim::limits::FILE_BYTES;
-use miniz_oxide::deflate::compress_to_vec;
 use std::collections::HashSet;
+use std::io::Cursor;
+use zip::result::ZipResult;
+use zip::write::{PreparedZipFile, SimpleFileOptions};
+use zip::{CompressionMethod, DateTime, ZipWriter};
 
-/// Level of compression, from 0 to 10.
-const LEVEL: u8 = 7;
-
-/// 1 January 1980, the first day of the format.
-const NO_DATE: u16 = 0x21;
-
-/// Version of the format that is needed to read it, times 10.
-const VERSION: u16 = 20;
+/// Level of compression, from 0 to 9.
+const LEVEL: i64 = 7;
 
 /// Returns an archive of `files`, in their order.
 ///
@@ -35,58 +29,35 @@ fn written(files: &[ArchivedFile], most_unpacked: u64, most_bytes: u64) -> Resul
     if files.iter().map(|file| file.bytes.len() as u64).sum::<u64>() > most_unpacked {
         return Err(ArchiveError::TooLarge);
     }
-    let (mut out, mut central, mut names) = (Vec::new(), Vec::new(), HashSet::new());
+    let mut names = HashSet::new();
     for file in files {
         checked_name(&file.name)?;
         if !names.insert(file.name.to_lowercase()) {
             return Err(ArchiveError::Twice(file.name.clone()));
         }
-        let offset = size(out.len())?;
-        let packed = compress_to_vec(&file.bytes, LEVEL);
-        // Pictures and compressed meshes would become larger.
-        let (method, data) =
-            if packed.len() < file.bytes.len() { (DEFLATED, &packed) } else { (STORED, &file.bytes) };
-        let mut fields = Vec::with_capacity(26);
-        for short in [VERSION, UTF8, method, 0, NO_DATE] {
-            fields.extend(short.to_le_bytes());
-        }
-        for long in [crc32fast::hash(&file.bytes), size(data.len())?, size(file.bytes.len())?] {
-            fields.extend(long.to_le_bytes());
-        }
-        // The names of files are shorter than 4 KiB, as was checked.
-        fields.extend((file.name.len() as u16).to_le_bytes());
-        fields.extend([0, 0]);
-        out.extend(LOCAL.to_le_bytes());
-        out.extend(&fields);
-        out.extend(file.name.bytes());
-        out.extend(data);
-        central.extend(CENTRAL.to_le_bytes());
-        central.extend(VERSION.to_le_bytes());
-        central.extend(&fields);
-        // No comment, first disk, no attributes.
-        central.extend([0; 10]);
-        central.extend(offset.to_le_bytes());
-        central.extend(file.name.bytes());
     }
-    let (start, length) = (size(out.len())?, size(central.len())?);
-    out.extend(central);
-    out.extend(END.to_le_bytes());
-    out.extend([0; 4]);
-    for _ in 0..2 {
-        out.extend((files.len() as u16).to_le_bytes());
-    }
-    out.extend(length.to_le_bytes());
-    out.extend(start.to_le_bytes());
-    out.extend([0; 2]);
+    let out = packed(files).map_err(|error| ArchiveError::Unwritten(error.to_string()))?;
     match out.len() as u64 {
         length if length > most_bytes => Err(ArchiveError::TooLong(length)),
         _ => Ok(out),
     }
 }
 
-/// Returns a size as the format stores it.
-fn size(size: usize) -> Result<u32, ArchiveError> {
-    u32::try_from(size).ok().filter(|&size| size < u32::MAX).ok_or(ArchiveError::TooLarge)
+fn packed(files: &[ArchivedFile]) -> ZipResult<Vec<u8>> {
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    let stored = SimpleFileOptions::default()
+        .last_modified_time(DateTime::default())
+        .compression_method(CompressionMethod::Stored);
+    let deflated = stored.compression_method(CompressionMethod::Deflated).compression_level(Some(LEVEL));
+    for ArchivedFile { name, bytes } in files {
+        let mut file = PreparedZipFile::from_data(name, deflated, bytes)?;
+        // Pictures and compressed meshes would become larger.
+        if file.compressed_size() >= bytes.len() as u64 {
+            file = PreparedZipFile::from_data(name, stored, bytes)?;
+        }
+        writer.add_prepared_file(file)?;
+    }
+    Ok(writer.finish()?.into_inner())
 }
 
 #[cfg(test)]
