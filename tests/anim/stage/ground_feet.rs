@@ -118,10 +118,7 @@ fn measure(model: &Arc<StageModel>, scale: f64, take: &str, most_off: f32) {
 #[test]
 fn feet_of_a_human_stand_on_a_slope_of_fifteen_degrees_and_do_not_slide() {
     let Some(model) = rogue() else { return };
-    let takes: Vec<&str> =
-        model.takes().iter().map(|take| take.name()).filter(|name| name.starts_with("Walking")).collect();
-    assert!(takes.len() >= 2, "{takes:?}");
-    for take in takes {
+    for take in ["Walking_A", "Walking_Backwards"] {
         measure(&model, 1.0, take, 0.02);
     }
 }

@@ -5,8 +5,8 @@
 //!
 //! Of several surfaces over each other, a way chooses in two steps:
 //!
-//! 1. *Room.* What faces down is a ceiling, and no ground. Ground is what faces up with nothing over it, or with a ceiling at least [`ROOM`]
-//!    meters over it. So the floor inside of a hill is not ground, nor the underside of the hill, but the floor below a bridge is. (A bridge
+//! 1. *Room.* What faces down is a ceiling, and no ground. Ground is what faces up with nothing over it, or with a ceiling at least half a meter
+//!    over it. So the floor inside of a hill is not ground, nor the underside of the hill, but the floor below a bridge is. (A bridge
 //!    needs an underside for that: a sheet without one hides what is below it, as a hill does.)
 //! 2. *Height.* Of what is left, the surface nearest to the height of the way itself; the higher of two equally near ones.
 //!

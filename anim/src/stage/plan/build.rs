@@ -1,6 +1,5 @@
 //! From a script and its models to a plan.
 
-use super::StagePlan;
 use super::bind::{StageBinder, number};
 use super::clock::PlayClock;
 use super::cues::{RunCue, ShotCue, SoundCue, TitleCue, run_seed};
@@ -38,7 +37,7 @@ impl<'a> PlanBuilder<'a> {
     pub(super) fn build(
         script: &'a StageScript,
         assets: &StageAssets,
-        before: Option<&StagePlan>,
+        before: &[PlannedThing],
     ) -> Result<Self, Vec<ScriptError>> {
         let nested = script.with_errors(|errors| Self::bound(script, assets, before, errors))?;
         let (binder, bound) = nested;
@@ -73,7 +72,7 @@ impl<'a> PlanBuilder<'a> {
     fn bound(
         script: &'a StageScript,
         assets: &StageAssets,
-        before: Option<&StagePlan>,
+        before: &[PlannedThing],
         errors: &mut ErrorList,
     ) -> (StageBinder<'a>, Vec<BoundAction>) {
         let mut binder = StageBinder::new(script, assets, errors);

@@ -1,8 +1,8 @@
 //! The ground props of a cast, and what a script may do with them.
 
-use super::StagePlan;
 use super::bind::StageBinder;
 use super::motions::BoundAction;
+use super::thing::PlannedThing;
 use crate::stage::ground::{GROUND_TRIANGLES, GroundMesh, PlacedGround, SceneGround};
 use crate::stage::model::StageModel;
 use crate::stage::script::ErrorList;
@@ -11,8 +11,8 @@ use std::sync::Arc;
 /// Largest number of props that an error lists.
 const LISTED: usize = 8;
 
-/// Prepares the props that are ground. A model is prepared once, and not again if the plan `before` has it.
-pub(super) fn find_ground(binder: &mut StageBinder<'_>, before: Option<&StagePlan>, errors: &mut ErrorList) {
+/// Prepares the props that are ground. A model is prepared once, and not again if one of the things `before`, of an older plan, has it.
+pub(super) fn find_ground(binder: &mut StageBinder<'_>, before: &[PlannedThing], errors: &mut ErrorList) {
     let mut ground = SceneGround::default();
     for (thing, element) in binder.script.things().enumerate() {
         if element.value("ground") != Some("yes") {
@@ -20,7 +20,7 @@ pub(super) fn find_ground(binder: &mut StageBinder<'_>, before: Option<&StagePla
         }
         // A model that is missing is reported elsewhere, or on its way.
         let Some(model) = binder.things[thing].model.clone() else { continue };
-        let known = binder.things.iter().chain(before.into_iter().flat_map(|before| &before.things));
+        let known = binder.things.iter().chain(before);
         let same = |other: &Arc<StageModel>| Arc::ptr_eq(other, &model);
         let known = known.filter(|other| other.model.as_ref().is_some_and(same));
         let mesh = known.filter_map(|other| other.ground.clone()).next();

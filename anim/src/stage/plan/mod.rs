@@ -115,6 +115,7 @@ impl StagePlan {
         level: SimdLevel,
         before: Option<&Self>,
     ) -> Result<Self, Vec<ScriptError>> {
+        let before = before.map_or(&[][..], |before| &before.things);
         let builder = PlanBuilder::build(script, assets, before)?;
         let ground = builder.binder.ground;
         let things = builder.binder.things;
