@@ -15,6 +15,7 @@ mod many;
 mod missing;
 mod oracle;
 mod paths;
+mod placing;
 mod projects;
 mod pure;
 mod random_scripts;

@@ -1,16 +1,38 @@
-//! New actions: shots, clips, attachments.
+//! New actions: shots and clips.
 
 use super::draft::ScriptDraft;
-use super::scene::{GestureRefusal, GestureScene, refused};
-use crate::stage::splice::{ElementPlace, NewElement, insert};
+use super::scene::{GestureRefusal, GestureScene, NO_PLACE, refused};
+use crate::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use crate::stage::table;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::{readable, time_text};
 
 /// A place for a new action, and the time from which its `begin` counts.
-struct ActionPlace {
-    place: ElementPlace,
-    base: StageTime,
+pub(super) struct ActionPlace {
+    pub(super) place: ElementPlace,
+    pub(super) base: StageTime,
+}
+
+impl ActionPlace {
+    /// Returns the replacements that add an action here, so that it begins at `at`.
+    pub(super) fn added(
+        &self,
+        scene: &GestureScene<'_>,
+        action: NewElement,
+        at: StageTime,
+    ) -> Result<TextSplices, GestureRefusal> {
+        let action = match at == self.base {
+            true => action,
+            false => {
+                let rate = scene.script.rate();
+                action.with("begin", time_text(readable(at - self.base, rate), rate, ""))
+            }
+        };
+        match insert(scene.script.tree(), self.place, &action) {
+            Some(splices) => Ok(splices),
+            None => refused(NO_PLACE),
+        }
+    }
 }
 
 /// Cuts to a camera at `at`: a new shot, or another camera for the shot that begins then.
@@ -60,7 +82,8 @@ pub fn add_clip(
     add_action(scene, who, NewElement::new("play").with("who", who).with("take", take), at)
 }
 
-/// Adds a `move` of a thing along a path from `at`, with this take; its place in the script is that of [`add_clip`].
+/// Adds a `move` of a thing along a path from `at`, with this take; its place in the script is that of [`add_clip`]. Without a take, what is no role moves at
+/// a meter per second and keeps its direction.
 ///
 /// # Errors
 ///
@@ -77,9 +100,11 @@ pub fn follow_path(
         return refused(format!("\"{path}\" is no path of the cast"));
     }
     let step = NewElement::new("move").with("who", who).with("path", path);
-    let step = match take {
-        Some(take) => step.with("take", take),
-        None => step,
+    let step = match (take, kind_of(scene, who)) {
+        (Some(take), _) => step.with("take", take),
+        (None, Some("role")) => step,
+        // Without a stride it needs a speed, and without legs it need not face its way.
+        (None, _) => step.with("speed", "1").with("turn", "keep"),
     };
     add_action(scene, who, step, at)
 }
@@ -91,7 +116,12 @@ fn kind_of(scene: &GestureScene<'_>, id: &str) -> Option<&'static str> {
 }
 
 /// Refuses a thing that does no action of this name, which do `what`.
-fn check_who(scene: &GestureScene<'_>, who: &str, action: &str, what: &str) -> Result<(), GestureRefusal> {
+pub(super) fn check_who(
+    scene: &GestureScene<'_>,
+    who: &str,
+    action: &str,
+    what: &str,
+) -> Result<(), GestureRefusal> {
     let kinds = table::element(action).map_or(&[][..], |row| row.who);
     match kind_of(scene, who) {
         Some(kind) if kinds.contains(&kind) => Ok(()),
@@ -138,40 +168,8 @@ fn add_action(
     ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &action))?.finish()
 }
 
-/// Attaches a thing to another one, or to a bone of it such as `anna.RightHand`, from `at` on.
-///
-/// # Errors
-///
-/// One of them is not in the cast, or it would hold itself.
-pub fn attach_thing(
-    scene: &GestureScene<'_>,
-    who: &str,
-    to: &str,
-    at: StageTime,
-) -> Result<String, GestureRefusal> {
-    let holder = to.split_once('.').map_or(to, |(holder, _)| holder);
-    if holder == who {
-        return refused("A thing cannot hold itself");
-    }
-    for name in [who, holder] {
-        if scene.plan.thing_called(name).is_none() {
-            return refused(format!("No thing of the cast has the id \"{name}\""));
-        }
-    }
-    let at = at.max(StageTime::ZERO);
-    let own = |&action: &usize| scene.script.element(action).value("who") == Some(who);
-    let near = (1..scene.script.actions().len()).rfind(own);
-    let ActionPlace { place, base } = place_in_par(scene, near);
-    let mut attach = NewElement::new("attach").with("who", who).with("to", to);
-    if at != base {
-        attach = attach
-            .with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
-    }
-    ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &attach))?.finish()
-}
-
 /// Returns the place after the action `near`, or after the `seq` around it, in a `par`; at the end of the script without one.
-fn place_in_par(scene: &GestureScene<'_>, near: Option<usize>) -> ActionPlace {
+pub(super) fn place_in_par(scene: &GestureScene<'_>, near: Option<usize>) -> ActionPlace {
     let actions = scene.script.actions();
     let last = actions[0].children.last().copied();
     // A scene whose actions are all in one `par` gets new ones in there.

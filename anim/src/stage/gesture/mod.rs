@@ -6,7 +6,7 @@
 //!
 //! Each function changes as few attributes as it can; comments, layout and spelling of the rest stay ([`splice`](super::splice)). The new text
 //! is always a script that can be read and whose times do not depend on themselves. Several things at once are changed by
-//! [`place_splices`] and [`face_splices`], whose results [`spliced_text`] applies and checks together.
+//! the functions that return splices, whose results [`spliced_text`] applies and checks together.
 //!
 //! | gesture | what it changes |
 //! |---|---|
@@ -15,30 +15,37 @@
 //! | [`trim_end`] | `to` of a take, `repeat` beyond its end, otherwise `dur` or `end` |
 //! | [`set_fade`], [`set_speed`], [`set_repeat`] | the attribute; removed where it is the default |
 //! | [`delete_clip`], [`duplicate_clip`] | one element |
-//! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`] | one new element |
-//! | [`move_path_point`] | three numbers of `points` |
+//! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`], [`detach_splices`], [`key_place_splices`] | one new element |
+//! | [`grip_splices`] | `offset` and `turn` of an `attach` |
+//! | [`move_path_point`], [`path_points_splices`] | numbers of `points` |
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
 //! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
 //! `prev` would have another one before it is refused, and so is one of a thing that belongs to the project: it is in another text.
 
+mod angles;
 mod attributes;
 mod begin;
 mod draft;
+mod holding;
 mod insert;
 mod moving;
 mod path_points;
+mod place_keys;
 mod places;
 mod removal;
 mod scene;
 mod trim;
 
+pub use angles::{facing_and_tilt, turn_about_axes};
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
 pub use draft::spliced_text;
-pub use insert::{add_clip, attach_thing, cut_to, follow_path};
+pub use holding::{HeldGrip, attach_splices, attach_thing, detach_splices, grip_splices};
+pub use insert::{add_clip, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
-pub use path_points::{move_path_point, written_points};
+pub use path_points::{move_path_point, path_points_splices, written_points};
+pub use place_keys::key_place_splices;
 pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene};

@@ -9,6 +9,7 @@ use super::properties::PropertyLane;
 use super::spot::StageSpot;
 use crate::stage::model::StageModel;
 use crate::stage::path::StagePath;
+use glam::DQuat;
 use std::sync::Arc;
 
 /// What is in focus.
@@ -37,6 +38,8 @@ pub struct PlannedThing {
     pub is_missing: bool,
     /// Its way; `None` for things that are no path.
     pub path: Option<Arc<StagePath>>,
+    /// Rotation of a prop in its own space, before its direction; none for other things.
+    pub(super) tilt: DQuat,
     pub(super) places: PlaceLane,
     /// The first lane is that of the whole body.
     pub(super) poses: Vec<PoseLane>,

@@ -2,8 +2,8 @@
 
 use super::row::{AttributeRow, ElementGroup, ElementRow, optional, required};
 use super::value::{
-    AMOUNT, COLOR, FOCUS, LENS, NAME, NUMBER, POINTS, POSITIVE, RATE, SEED, SIZE, SOURCE, SPOT, TEXT, VECTOR,
-    VERSION, ValueRow, YES_NO,
+    AMOUNT, COLOR, FOCUS, LENS, NAME, NUMBER, POINTS, POSITIVE, RATE, SEED, SIZE, SOURCE, SPOT, TEXT, TILT,
+    VECTOR, VERSION, ValueRow, YES_NO,
 };
 
 const ID: &[AttributeRow] = &[required("id", NAME, "Name by which actions refer to it.")];
@@ -54,8 +54,21 @@ pub(super) const CAST: ElementRow = ElementRow {
 pub(super) const ROLE: ElementRow =
     thing("role", &[ID, MODEL, PLACED], "A figure with bones and takes that it can play.");
 
-pub(super) const PROP: ElementRow =
-    thing("prop", &[ID, MODEL, PLACED], "An object that stands somewhere or is carried.");
+pub(super) const PROP: ElementRow = thing(
+    "prop",
+    &[
+        ID,
+        MODEL,
+        PLACED,
+        &[optional(
+            "tilt",
+            TILT,
+            "0 0",
+            "Degrees about its own x (pitch) and z (roll), before `facing`; not while it is held.",
+        )],
+    ],
+    "An object that stands somewhere or is carried.",
+);
 
 pub(super) const CAMERA: ElementRow = thing(
     "camera",
