@@ -174,3 +174,45 @@ fn a_sound_that_cannot_be_played_is_named_and_the_others_play() {
     let missing = SoundSource::Below { folder: folder.path().to_owned(), name: "none.wav".to_owned() };
     assert!(missing.peaks(&dragonfly_document::Cancel::default()).is_err());
 }
+
+/// Returns how loud the device is, in two parts of a twentieth of a second after each other. Each call is a second after the one before.
+fn next_loudness(player: &PlayerBench, calls: &Cell<u64>) -> [f32; 2] {
+    calls.set(calls.get() + 1);
+    let mut voice = player.voice.borrow_mut();
+    let Some(voice) = voice.as_mut() else { return [0.0; 2] };
+    let begun = std::time::Instant::now() + Duration::from_secs(calls.get());
+    [0, 50].map(|after| {
+        let mut frames = vec![[0.0; 2]; 2_400];
+        voice.fill(begun + Duration::from_millis(after), 48_000, &mut frames);
+        frames.iter().map(|frame| frame[0].abs()).sum::<f32>() / 2_400.0
+    })
+}
+
+#[test]
+fn a_short_piece_is_played_at_each_new_time_of_a_paused_playhead_unless_that_is_off() {
+    let folder = Folder::new("scene-scrubbed");
+    let mut bench = thunder_in(&folder);
+    bench.state.scene_sounds().receive("thunder.wav", Ok(peaks()));
+    bench.state.scene_sounds().receive("none.wav", Err("it is missing".to_owned()));
+    let mut window = bench.window();
+    let (mut player, calls) = (PlayerBench::new(), Cell::new(0));
+    let scrub = |window: &mut crate::workbench::Window, player: &mut PlayerBench, time: f32| {
+        window.state_mut().state.execute(Request::Seek(time));
+        player.update(&mut window.state_mut().state);
+    };
+    player.update(&mut window.state_mut().state);
+    assert!(player.voice.borrow().is_none(), "nothing was dragged");
+    scrub(&mut window, &mut player, 1.1);
+    player.read(&mut window.state_mut().state);
+    assert_eq!(next_loudness(&player, &calls), [0.0; 2], "its samples were read meanwhile");
+    scrub(&mut window, &mut player, 1.2);
+    let [piece, after] = next_loudness(&player, &calls);
+    assert!(piece > 0.2 && after == 0.0, "{piece} {after}");
+    player.update(&mut window.state_mut().state);
+    assert_eq!(next_loudness(&player, &calls), [0.0; 2], "the time is the same");
+    scrub(&mut window, &mut player, 0.5);
+    assert_eq!(next_loudness(&player, &calls), [0.0; 2], "no sound is there");
+    run(&mut window, Id::ToggleScrubSounds);
+    scrub(&mut window, &mut player, 1.3);
+    assert_eq!(next_loudness(&player, &calls), [0.0; 2], "it is off");
+}

@@ -84,7 +84,8 @@
 //!
 //! Position and direction are two channels. `move`, `place`, and takes that travel decide over both, `turn` over the direction; a thing
 //! stays where the last of them left it. What is attached follows its holder until something moves it that began later. On a path a take
-//! is played by distance, at the stride that its feet or its root motion have, and feet in contact are held where they are.
+//! is played by distance, at the stride that its feet or its root motion have, and feet in contact are held where they are. A prop has a
+//! `tilt` before its direction, except while something holds it.
 //!
 //! # Ground
 //!
@@ -146,7 +147,9 @@ pub use ground::GROUND_TRIANGLES;
 pub use live::LiveStage;
 pub use model::{FootContact, StageFoot, StageModel, StageShapes, StageTake};
 pub use path::{PathSpot, StagePath};
-pub use plan::{Footprint, PathWalk, Placement, PlannedThing, SoundCue, StagePlan, TitleCue};
+pub use plan::{
+    Footprint, PathWalk, Placement, PlannedThing, RigidPlace, SoundCue, StagePlan, ThingHold, TitleCue,
+};
 pub use scene::{
     EffectState, LightState, PlayingSound, ShownTitle, StageCamera, StageScene, ThingPose, ThingState,
 };

@@ -38,6 +38,11 @@ pub struct LoadedModel {
 }
 
 impl LoadedModel {
+    /// Returns whether it has takes or moves a skin; otherwise it is an object, as props are.
+    pub fn is_figure(&self) -> bool {
+        !self.model.animation.takes.is_empty() || !self.model.skins.is_empty()
+    }
+
     /// Returns the model with this skeleton, which edits made from that of `opened`.
     pub(super) fn with_skeleton(opened: &Arc<Self>, skeleton: &Arc<Skeleton>) -> Arc<Self> {
         let own = &opened.model.animation.skeleton;

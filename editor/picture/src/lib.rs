@@ -61,7 +61,7 @@ mod x11;
 pub use appearance::{AnyAppearance, Appearance, Appearances};
 pub use appearance_sender::AppearanceSender;
 pub use between::between;
-pub use cast::{PickedThing, PosedScene, ThroughCamera, placeholder_box, viewport_camera};
+pub use cast::{PickedThing, PosedScene, SurfaceHit, ThroughCamera, placeholder_box, viewport_camera};
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,
@@ -77,4 +77,5 @@ pub use pass::{ReferenceAppearance, ReferencePicture, ReferencePlace};
 pub use surface::WindowSurface;
 pub use surface_source::SurfaceSource;
 pub use thumbnail::{Thumbnail, ThumbnailOrder};
+pub use titles::TitleLook;
 pub use worker::{Drawer, Graphics, Present};

@@ -10,6 +10,30 @@ const LINE: f32 = 0.07;
 /// Distance of the shadow of a text as a part of the height of its lines.
 const SHADOW: f32 = 0.05;
 
+/// How titles look in an image, in the unit of its height: the same in movies and in a viewport.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TitleLook {
+    /// Height of the font.
+    pub size: f32,
+    /// Distance of the shadow to the right and below.
+    pub shadow: f32,
+    /// Opacity of the shadow of a title that is not faded.
+    pub shadow_opacity: f32,
+}
+
+impl TitleLook {
+    /// Returns the look in an image of this height.
+    pub fn of(height: f32) -> Self {
+        let size = (LINE * height).max(6.0);
+        Self { size, shadow: (SHADOW * size).max(1.0), shadow_opacity: 0.6 }
+    }
+
+    /// Returns the fonts of titles, the first one first.
+    pub fn fonts() -> FontDefinitions {
+        FontDefinitions::default()
+    }
+}
+
 /// Smallest and largest side of the image in which the shapes of letters are kept, pixels.
 const LEAST_SIDE: u32 = 2048;
 const MOST_SIDE: u32 = 16384;
@@ -21,7 +45,7 @@ pub(super) struct TitleDrawer {
 
 impl Default for TitleDrawer {
     fn default() -> Self {
-        Self { fonts: Fonts::new(TextOptions::default(), FontDefinitions::default()) }
+        Self { fonts: Fonts::new(TextOptions::default(), TitleLook::fonts()) }
     }
 }
 
@@ -29,19 +53,19 @@ impl TitleDrawer {
     /// Draws the titles that `cast` shows at its time: white, with a soft shadow, around their positions.
     pub(super) fn draw(&mut self, cast: &PosedScene, picture: &mut RgbaImage) {
         let (width, height) = (picture.width() as f32, picture.height() as f32);
-        let size = (LINE * height).max(6.0);
+        let look = TitleLook::of(height);
         for shown in &cast.state().titles {
             let Some(title) = cast.plan().titles().get(shown.title) else { continue };
             // If earlier letters have filled their image, it begins again.
             self.fonts.begin_pass(options(picture), ViewportKey::default());
             let mut view = self.fonts.with_pixels_per_point(1.0);
             let galley =
-                view.layout_no_wrap(title.text.to_string(), FontId::proportional(size), Color32::WHITE);
+                view.layout_no_wrap(title.text.to_string(), FontId::proportional(look.size), Color32::WHITE);
             let atlas = view.image();
             let [x, y] = [title.at[0] * width, title.at[1] * height];
             let corner = [x - galley.size().x / 2.0, y - galley.size().y / 2.0];
-            let shadow = corner.map(|side| side + (SHADOW * size).max(1.0));
-            draw_text(picture, &galley, &atlas, shadow, ([0; 3], 0.6 * shown.weight));
+            let shadow = corner.map(|side| side + look.shadow);
+            draw_text(picture, &galley, &atlas, shadow, ([0; 3], look.shadow_opacity * shown.weight));
             draw_text(picture, &galley, &atlas, corner, ([255; 3], shown.weight));
         }
     }

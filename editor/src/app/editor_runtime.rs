@@ -6,6 +6,7 @@ use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, HoverPoint};
 use super::interface::Interface;
 use super::interface_receiver::interface_address;
+use super::model_looker::{self, LookedModels};
 use super::options::Options;
 use super::reference_loader::ReferenceAnswer;
 use super::scene_maker::{self, SceneAnswer};
@@ -49,6 +50,7 @@ pub(super) struct Running {
     scene_sounds: Address<SceneSoundAnswer>,
     samples: Address<SamplesAnswer>,
     scenes: Address<SceneAnswer>,
+    looked: Address<LookedModels>,
     graphics_sync: GraphicsSync,
     /// Number of questions sent to the graphics thread.
     tickets: u64,
@@ -198,6 +200,11 @@ impl EditorRuntime {
                     interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
                 }
             }
+            Effect::LookAtModels(unknown) => {
+                if let Err(error) = model_looker::look(*unknown, &running.looked) {
+                    interface.state.say(MessageSeverity::Error, format!("Nothing was added: {error}"));
+                }
+            }
             Effect::NewScene(model) => {
                 if let Err(error) = scene_maker::make(model, &running.scenes) {
                     interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
@@ -224,6 +231,7 @@ impl BaseRuntime for EditorRuntime {
         let scene_sounds = interface_address(main, shown, Interface::scene_sound_answered);
         let samples = interface_address(main, shown, Interface::samples_answered);
         let scenes = interface_address(main, shown, scene_maker::made);
+        let looked = interface_address(main, shown, model_looker::added);
         let setup = self.setup();
         let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {
@@ -248,6 +256,7 @@ impl BaseRuntime for EditorRuntime {
             scene_sounds,
             samples,
             scenes,
+            looked,
             leaving: false,
             graphics_sync: GraphicsSync::default(),
             tickets: 0,

@@ -20,6 +20,7 @@ mod init_manager;
 mod interface;
 mod interface_receiver;
 mod main_runtime;
+mod model_looker;
 mod options;
 mod pointer_place;
 mod reference_loader;

@@ -10,13 +10,17 @@ use dragonfly_runtime::{Address, Job, JobContext};
 use dragonfly_sound::{
     MixedSounds, OutputCommand, OutputError, SoundClock, SoundMix, SoundOutput, SoundSamples,
 };
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Memory for the samples of all sounds of what is open, bytes.
 const MOST_BYTES: usize = 512 << 20;
+
+/// Least length of the piece of sound at a new time of a paused playhead, seconds.
+const PIECE: f64 = 0.04;
 
 /// The answer of a job: a sound, and its samples.
 pub type SamplesAnswer = (SoundSource, Result<SoundSamples, String>);
@@ -40,6 +44,10 @@ pub struct SoundPlayer {
     revision: u64,
     /// The time that the device follows, and the revision of its sounds.
     played: Option<(PlaybackClock, u64)>,
+    /// Whether the playhead moved by itself the last time.
+    was_playing: bool,
+    /// The file and the time of the paused playhead the last time, seconds.
+    paused_at: Option<(*const FileView, f64)>,
 }
 
 /// The state of the audio device.
@@ -128,16 +136,30 @@ impl SoundPlayer {
             sounds: None,
             revision: 0,
             played: None,
+            was_playing: false,
+            paused_at: None,
         }
     }
 
-    /// Follows the playhead, and starts to read samples that are missing.
+    /// Follows the playhead, and starts to read samples that are missing. While the playhead does not move by itself, a short piece is played at each new
+    /// time of it, where the settings have that.
     pub fn update(&mut self, state: &mut State, to: &Address<SamplesAnswer>) {
         let read = state.read();
         let clock = read.playback;
-        if !clock.moves(read.now) {
-            return self.stop();
+        let is_playing = clock.moves(read.now);
+        let scrubbed = match is_playing {
+            true => None,
+            false => self.scrubbed_to(&read),
+        };
+        self.was_playing = is_playing;
+        if !is_playing {
+            // A piece ends by itself.
+            self.stop();
+            if scrubbed.is_none() {
+                return;
+            }
         }
+        let read = state.read();
         if !self.sounds.as_ref().is_some_and(|sounds| sounds.is_of(&read)) {
             self.sounds = AudibleSounds::of(&read);
             let sources = self.sounds.as_ref().map_or(&[][..], AudibleSounds::sources);
@@ -163,9 +185,33 @@ impl SoundPlayer {
             return;
         }
         self.read_next(state, to);
-        if self.played != Some((clock, self.revision)) {
+        if let Some(time) = scrubbed {
+            let piece = (1.0 / state.read().frames_per_second().max(1.0)).max(PIECE);
+            let command = self.command(SoundClock {
+                begun: Instant::now(),
+                time_at: piece_clock(time, piece),
+                speed: 1.0,
+            });
+            self.send(command, Some(state));
+        } else if self.played != Some((clock, self.revision)) {
             self.play(state, clock);
         }
+    }
+
+    /// Returns the time of a paused playhead, seconds, if the user has put it there since the last time.
+    fn scrubbed_to(&mut self, read: &PanelContext<'_>) -> Option<f64> {
+        let file = read.view.map_or(std::ptr::null(), |view| Arc::as_ptr(&view.file));
+        let now = (file, read.playback.seconds_at(read.now));
+        let before = self.paused_at.replace(now);
+        if std::mem::take(&mut self.was_playing) {
+            // The device is tried again with the next playback.
+            if matches!(self.output, PlayerOutput::Failed) {
+                self.output = PlayerOutput::Unopened;
+            }
+            return None;
+        }
+        let is_moved = before.is_some_and(|before| before.0 == now.0 && before.1 != now.1);
+        (is_moved && read.settings.scrub_sounds).then_some(now.1)
     }
 
     /// Receives the samples of a sound.
@@ -210,6 +256,16 @@ impl SoundPlayer {
     }
 
     fn play(&mut self, state: &mut State, clock: PlaybackClock) {
+        let begun = Instant::now();
+        let time_at = move |passed| clock.seconds_at(begun + passed);
+        let speed = f64::from(clock.speed);
+        let command = self.command(SoundClock { begun, time_at: Box::new(time_at), speed });
+        self.played = Some((clock, self.revision));
+        self.send(command, Some(state));
+    }
+
+    /// Returns the command that plays the sounds of what is open along a clock.
+    fn command(&self, clock: SoundClock) -> OutputCommand {
         let samples = |source: &SoundSource| self.samples_of(source).cloned();
         let sounds = self.sounds.as_ref().and_then(|sounds| match sounds {
             AudibleSounds::Scene(plan, _, sources) => Some(MixedSounds::Scene {
@@ -220,23 +276,13 @@ impl SoundPlayer {
                 samples(source).map(|samples| MixedSounds::Take { begin: *begin, samples })
             }
         });
-        let command = match sounds {
-            Some(sounds) => {
-                let begun = Instant::now();
-                let time_at = move |passed| clock.seconds_at(begun + passed);
-                let clock = SoundClock { begun, time_at: Box::new(time_at), speed: f64::from(clock.speed) };
-                OutputCommand::Play(Box::new(SoundMix::new(sounds)), clock)
-            }
+        match sounds {
+            Some(sounds) => OutputCommand::Play(Box::new(SoundMix::new(sounds)), clock),
             None => OutputCommand::Stop,
-        };
-        self.played = Some((clock, self.revision));
-        self.send(command, Some(state));
+        }
     }
 
     fn stop(&mut self) {
-        if matches!(self.output, PlayerOutput::Failed) {
-            self.output = PlayerOutput::Unopened;
-        }
         if self.played.take().is_some() {
             self.send(OutputCommand::Stop, None);
         }
@@ -252,4 +298,15 @@ impl SoundPlayer {
             }
         }
     }
+}
+
+/// Returns a clock for `piece` seconds from `time` on, which stops after that: no sound is mixed then. It begins when the device first asks, since devices are
+/// later than the playhead by about a piece.
+fn piece_clock(time: f64, piece: f64) -> Box<dyn Fn(Duration) -> f64 + Send> {
+    let first: Cell<Option<Duration>> = Cell::new(None);
+    Box::new(move |passed| {
+        let begun = first.get().unwrap_or(passed);
+        first.set(Some(begun));
+        time + passed.saturating_sub(begun).as_secs_f64().min(piece)
+    })
 }

@@ -12,7 +12,7 @@ use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets::{disabled_hint_beside, hint_beside};
-use crate::control::line::LineUse;
+use crate::control::line::{LineSurface, LineUse};
 use dragonfly_document::Source;
 use dragonfly_picture::{BoneLook, Shading, ThroughCamera};
 use egui::{
@@ -151,6 +151,12 @@ pub(super) fn entries(
             Id::ToolLine => context.tools.controls().line().use_of() == Some(LineUse::Note),
             Id::ToolPath => context.tools.controls().line().use_of() == Some(LineUse::Path),
             Id::PoseLine => context.tools.controls().line().use_of() == Some(LineUse::Pose),
+            Id::ToggleScrubSounds => context.settings.scrub_sounds,
+            Id::LinesOnGround => is_drawn_on(context, LineSurface::Ground),
+            Id::LinesInView => is_drawn_on(context, LineSurface::View),
+            Id::LinesOnSurface => is_drawn_on(context, LineSurface::Surface),
+            Id::LinesOnBone => is_drawn_on(context, LineSurface::Bone),
+            Id::ToggleLinesFrom => context.settings.tools.lines_from_playhead,
             Id::ToggleProblems => context.findings.is_on(),
             Id::ToggleGroundSnap => context.settings.tools.ground,
             Id::ToggleSceneRipple => context.scene_editing.ripple(),
@@ -161,6 +167,10 @@ pub(super) fn entries(
             ui.separator();
         }
     }
+}
+
+fn is_drawn_on(context: &PanelContext<'_>, surface: LineSurface) -> bool {
+    context.scene().is_some() && context.tools.controls().line().note_surface() == surface
 }
 
 /// The last entries of groups in long menus.
@@ -194,6 +204,7 @@ const GROUP_ENDS: &[Id] = &[
     Id::ProjectFromScene,
     Id::AddMark,
     Id::ToggleGroundSnap,
+    Id::PickFocus,
     Id::NextShot,
     Id::ClipEndToPlayhead,
     Id::NextAction,

@@ -28,6 +28,7 @@ pub mod digest;
 mod dope;
 mod drag;
 pub mod dragging;
+pub mod dropped_files;
 pub mod echo;
 pub mod edit_scope;
 mod edit_scope_menu;

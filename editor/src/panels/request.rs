@@ -6,6 +6,7 @@ use super::compared::CompareWith;
 use super::curves::given::GivenCurve;
 use super::curves::look::CurvesLook;
 use super::dialog_preview::DialogPreview;
+use super::dropped_files::{DroppedModels, UnknownModels};
 use super::edit_scope::FalloffSettings;
 use super::file_choice::FileChoice;
 use super::keys::request::KeysRequest;
@@ -132,6 +133,8 @@ pub enum Request {
     Scene(SceneRequest),
     /// Files were dropped onto the window.
     Dropped(Vec<PathBuf>),
+    /// Adds models that were dropped onto the scene, once it is known what they are.
+    DroppedModels(Box<DroppedModels>),
     /// Adds a layer with the keys of the take with this index over the take that is shown.
     AddLayerFrom(usize),
     /// Adds this model to the scene as a role.
@@ -195,6 +198,8 @@ pub enum Effect {
     NewScene(PathBuf),
     /// Writes the built-in model and a scene of two roles with it into this folder, and opens the scene.
     DemoScene(PathBuf),
+    /// Reads these models, then executes [`Request::DroppedModels`].
+    LookAtModels(Box<UnknownModels>),
     /// Writes a project with this script next to its file, and opens it.
     NewProject(PathBuf),
 }

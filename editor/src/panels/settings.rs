@@ -90,6 +90,8 @@ pub struct ToolSettings {
     pub ik: IkSettings,
     /// Whether things of a scene that are moved stay on the ground.
     pub ground: bool,
+    /// Whether a line that is drawn is shown from the playhead on; otherwise always.
+    pub lines_from_playhead: bool,
 }
 
 /// IK settings that are remembered.
@@ -174,6 +176,7 @@ impl Default for ToolSettings {
             path: false,
             ik: IkSettings::default(),
             ground: false,
+            lines_from_playhead: true,
         }
     }
 }
@@ -248,8 +251,10 @@ pub struct Settings {
     pub speed: f32,
     /// Keys of commands.
     pub keys: KeySettings,
-    /// Whether a changed pose becomes a key at once.
+    /// Whether a changed pose becomes a key at once, and a thing that is moved after the start of a scene is elsewhere from then on.
     pub auto_key: bool,
+    /// Whether a short piece of sound is played at each new time of a paused playhead.
+    pub scrub_sounds: bool,
     /// Whether undo includes selections of bones and keys.
     pub undo_selections: bool,
     /// Size of the falloff of edits.
@@ -280,6 +285,7 @@ impl Default for Settings {
             speed: 1.0,
             keys: KeySettings::default(),
             auto_key: true,
+            scrub_sounds: true,
             undo_selections: false,
             falloff: FalloffSettings::default(),
             show_changes: false,

@@ -1,6 +1,7 @@
 //! Type, spacing and the look of egui's own widgets: a grid of four points, one corner radius, no frames in frames.
 
 use super::theme::Theme;
+use dragonfly_picture::TitleLook;
 use egui::epaint::text::{FontData, FontDefinitions};
 use egui::style::{ScrollStyle, WidgetVisuals};
 use egui::{Context, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Vec2, vec2};
@@ -40,10 +41,18 @@ pub fn install(context: &Context) {
     });
 }
 
+/// Returns the font of the titles of a scene.
+pub(super) fn title_font() -> FontFamily {
+    FontFamily::Name("title".into())
+}
+
 /// Returns the fonts: Inter for text, Hack for numbers (digits of one width, so that columns do not jitter while
 /// playing).
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
+    // Titles look as in movies.
+    let titles = TitleLook::fonts().families.remove(&FontFamily::Proportional).unwrap_or_default();
+    fonts.families.insert(title_font(), titles);
     let inter = FontData::from_static(include_bytes!("../../fonts/Inter-Medium.otf"));
     fonts.font_data.insert("Inter".to_owned(), Arc::new(inter));
     fonts.families.entry(FontFamily::Proportional).or_default().insert(0, "Inter".to_owned());

@@ -21,7 +21,7 @@ use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
-use super::scene::{LeftScene, SceneEditing, SceneViewport};
+use super::scene::{LeftScene, SceneEditing, SceneProbe, SceneViewport};
 use super::selected_bones::SelectedBones;
 use super::selection_sets::SelectionSets;
 use super::selection_steps::{SelectionState, SelectionSteps};
@@ -96,6 +96,8 @@ pub(super) struct Workspace {
     pub(super) scene: SceneEditing,
     /// The scene in the viewport.
     pub(super) stage: SceneViewport,
+    /// The surfaces of the scene, where something asks for them.
+    pub(super) probe: SceneProbe,
     /// The state of the scene that was left last.
     pub(super) left_scene: Option<LeftScene>,
     /// The pose library.
@@ -148,6 +150,7 @@ impl Workspace {
             export: None,
             scene: SceneEditing::default(),
             stage: SceneViewport::default(),
+            probe: SceneProbe::default(),
             left_scene: None,
             poses: PoseLibrary::default(),
             reference: ReferenceTrack::default(),

@@ -19,6 +19,7 @@ mod many;
 mod missing;
 mod oracle;
 mod paths;
+mod placing;
 mod projects;
 mod pure;
 mod random_scripts;

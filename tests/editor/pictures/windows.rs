@@ -5,6 +5,7 @@ use super::compare::SCENES;
 use super::drawing;
 use super::reference::{self, HOW_TO_UPDATE};
 use super::states::{self, Fullness};
+use crate::scene_bench;
 use crate::workbench::Workbench;
 use dragonfly::app::graphics_sync::GraphicsSync;
 use dragonfly::panels::commands::Id;
@@ -34,7 +35,8 @@ const SIZE: [u32; 2] = [1120, 700];
 /// A window: its name, and the state of the panels.
 type WindowRow = (&'static str, fn() -> Workbench);
 
-const WINDOWS: &[WindowRow] = &[("built-in", built_in), ("fox", fox), ("scene", scene)];
+const WINDOWS: &[WindowRow] =
+    &[("built-in", built_in), ("fox", fox), ("scene", scene), ("scene-camera", through_camera)];
 
 const THEMES: [(Theme, &str); 2] = [(Theme::Dark, "dark"), (Theme::Light, "light")];
 
@@ -72,9 +74,32 @@ fn scene() -> Workbench {
     bench
 }
 
+/// Returns two foxes and a title through the camera of the shot, with thirds and safe areas.
+fn through_camera() -> Workbench {
+    through_camera_of(scene_bench::FOXES)
+}
+
+fn through_camera_of(script: &str) -> Workbench {
+    let mut bench = scene_bench::scene(script);
+    bench.state.window_mut().set_frame_time(4.2);
+    bench.state.execute(Request::Command(Id::LookThroughShot));
+    bench.state.execute(Request::Seek(4.75));
+    bench.state.pause();
+    bench
+}
+
 /// Returns the names of all pictures of this file.
 pub(super) fn names() -> Vec<String> {
-    WINDOWS.iter().flat_map(|(name, _)| THEMES.map(|(_, theme)| file_name(name, theme))).collect()
+    let drawn = |(name, _): &WindowRow| {
+        let name: &'static str = name;
+        themes_of(name).iter().map(move |(_, theme)| file_name(name, theme))
+    };
+    WINDOWS.iter().flat_map(drawn).collect()
+}
+
+/// Returns the themes in which a window is drawn: what is over an image is the same in both.
+fn themes_of(window: &str) -> &'static [(Theme, &'static str)] {
+    if window == "scene-camera" { &THEMES[..1] } else { &THEMES }
 }
 
 fn file_name(window: &str, theme: &str) -> String {
@@ -195,7 +220,7 @@ fn the_whole_window_looks_as_stored() {
     let mut window = DrawnWindow::open();
     let mut complaints = Vec::new();
     for (name, bench) in WINDOWS {
-        for (theme, word) in THEMES {
+        for &(theme, word) in themes_of(name) {
             let picture = window.draw(bench(), theme);
             complaints.extend(reference::compare(&file_name(name, word), &picture, SCENES));
         }
@@ -262,5 +287,120 @@ fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
             .filter(|&(x, y)| with.get_pixel(x, y) != without.get_pixel(x, y))
             .count();
         assert!(differ > 300, "{name}: {differ} pixels");
+    }
+}
+
+/// Returns where an image of 16 to 9 is in the viewport of a workbench.
+fn image_of(bench: &Workbench) -> Rect {
+    let viewport = bench.state.read().viewport;
+    let width = viewport.width().min(viewport.height() * 16.0 / 9.0);
+    Rect::from_center_size(viewport.center(), vec2(width, width * 9.0 / 16.0))
+}
+
+/// Draws a workbench twice, the second time after `change`. Returns both pictures and the place of the image.
+fn twice(
+    window: &mut DrawnWindow,
+    bench: fn() -> Workbench,
+    change: impl Fn(&mut Workbench),
+) -> ([RgbaImage; 2], Rect) {
+    let mut place = Rect::NOTHING;
+    let first = window.draw_after(bench(), Theme::Dark, |bench| place = image_of(bench));
+    let mut changed = bench();
+    change(&mut changed);
+    ([first, window.draw(changed, Theme::Dark)], place)
+}
+
+fn is_on_processor() -> bool {
+    match drawing::program_draws_on_processor() {
+        Some(true) => true,
+        Some(false) => {
+            skip(TestNeed::Adapter, "the pictures are those of a driver on the processor");
+            false
+        }
+        None => false,
+    }
+}
+
+#[test]
+fn the_image_of_a_camera_has_lines_at_its_thirds_and_around_what_is_safe() {
+    if !is_on_processor() {
+        return;
+    }
+    let mut window = DrawnWindow::open();
+    let ([with, without], image) = twice(&mut window, through_camera, |bench| {
+        bench.state.execute(Request::Command(Id::ToggleImageGuides));
+    });
+    let differs = |x: f32, y: f32| {
+        let near = |pixel: [i32; 2]| {
+            let [x, y] = pixel.map(|side| side as u32);
+            with.get_pixel(x, y) != without.get_pixel(x, y)
+        };
+        (-1..=1).any(|dx| (-1..=1).any(|dy| near([x.round() as i32 + dx, y.round() as i32 + dy])))
+    };
+    let at = |x: f32, y: f32| image.min + vec2(x, y) * image.size();
+    let lines = [1.0 / 3.0, 2.0 / 3.0, 0.035, 0.05, 0.965, 0.95];
+    for part in lines {
+        // Between the caption and the toolbar, which cover the upper edge.
+        for (x, y) in [(part, 0.42), (part, 0.6), (0.3, part)] {
+            let at = at(x, y);
+            assert!(differs(at.x, at.y), "no line at {x} {y}");
+        }
+    }
+    for (x, y) in [(0.2, 0.45), (0.5, 0.6), (0.8, 0.45), (0.5, 0.2), (0.5, 0.8), (0.015, 0.45)] {
+        let at = at(x, y);
+        assert!(!differs(at.x, at.y), "something is drawn at {x} {y}");
+    }
+}
+
+/// Returns the box around the pixels that differ inside a part of two pictures, as shares of that part.
+fn changed_box(pictures: [&RgbaImage; 2], part: Rect) -> Rect {
+    let mut around = Rect::NOTHING;
+    for y in part.top().ceil() as u32..part.bottom().floor() as u32 {
+        for x in part.left().ceil() as u32..part.right().floor() as u32 {
+            let [one, other] = pictures.map(|picture| *picture.get_pixel(x, y));
+            // The letters themselves are white.
+            let is_letter = (0..3).all(|part| one[part] > 200) && one != other;
+            if is_letter {
+                around.extend_with(Pos2::new(x as f32 + 0.5, y as f32 + 0.5));
+            }
+        }
+    }
+    let share = |at: Pos2| ((at - part.min) / part.size()).to_pos2();
+    Rect::from_min_max(share(around.min), share(around.max))
+}
+
+#[test]
+fn titles_in_the_window_are_where_movies_have_them_and_as_large() {
+    if !is_on_processor() {
+        return;
+    }
+    let Some(mut studio) = dragonfly_kit::picture::studio::studio() else { return };
+    let untitled = scene_bench::FOXES.replace("text=\"The End\"", "text=\" \"");
+    let mut window = DrawnWindow::open();
+    let mut image = Rect::NOTHING;
+    let with = window.draw_after(through_camera(), Theme::Dark, |bench| image = image_of(bench));
+    let without = window.draw(through_camera_of(&untitled), Theme::Dark);
+    let shown = changed_box([&with, &without], image);
+    let size = [image.width().round() as u32, image.height().round() as u32];
+    let mut render = |script: &str| {
+        let scene = scene_bench::scene(script).state.read().view.and_then(|view| view.scene.clone());
+        let look = dragonfly_picture::Look {
+            through: dragonfly_picture::ThroughCamera::Shot,
+            ..dragonfly_picture::Look::default()
+        };
+        let settings = dragonfly_picture::PictureSettings {
+            size,
+            time: 4.75,
+            look,
+            ..dragonfly_picture::PictureSettings::default()
+        };
+        studio.render_scene(&scene.expect("a scene"), &settings).expect("a picture")
+    };
+    let (titled, plain) = (render(scene_bench::FOXES), render(&untitled));
+    let whole = Rect::from_min_size(Pos2::ZERO, vec2(size[0] as f32, size[1] as f32));
+    let rendered = changed_box([&titled, &plain], whole);
+    println!("in the window {shown}, in a movie {rendered}");
+    for (one, other) in [(shown.min, rendered.min), (shown.max, rendered.max)] {
+        assert!((one - other).length() < 0.01, "in the window {shown}, in a movie {rendered}");
     }
 }

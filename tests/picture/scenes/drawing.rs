@@ -128,6 +128,48 @@ fn lamps_of_the_scene_replace_those_of_the_studio() {
 }
 
 #[test]
+fn a_hidden_lamp_does_not_shine() {
+    let Some(mut studio) = studio::studio() else { return };
+    let cast = |light: &str| {
+        format!(
+            r#"<role id="a" model="arm"/><camera id="eye" at="0 1.5 5" look="0 1.5 0" lens="50mm"/>{light}"#
+        )
+    };
+    let text = |light: &str| view(&script(&cast(light), "<wait dur=\"1\"/>"));
+    let sun = r##"<light id="sun" kind="sun" direction="1 -0.4 -0.4" strength="3" color="#ffffff"/>"##;
+    let mut picture = |light: &str, hidden: &[&str]| {
+        let mut settings = settings(ThroughCamera::Shot, 0.0);
+        settings.look.hidden_things = hidden.iter().map(|id| std::sync::Arc::from(*id)).collect();
+        // Things are hidden when a scene is shown.
+        studio.stage().scene.look = settings.look.clone();
+        studio.render_scene(&text(light), &settings).unwrap()
+    };
+    let (dark, lit) = (picture("", &[]), picture(sun, &[]));
+    assert!(difference(&dark, &lit) > 0, "the sun is seen");
+    assert_eq!(difference(&picture(sun, &["sun"]), &dark), 0, "as without it");
+    let fill = r##"<light id="fill" kind="sun" direction="-1 -0.4 -0.4" strength="1" color="#ffffff"/>"##;
+    let both = picture(&format!("{sun}{fill}"), &["sun"]);
+    assert_eq!(difference(&both, &picture(fill, &[])), 0, "other lamps shine on");
+}
+
+#[test]
+fn the_distance_in_focus_is_marked_in_front_of_its_camera() {
+    let cast = |focus: &str| format!(r#"<camera id="eye" at="0 1 8" look="0 1 0"{focus}/>"#);
+    let drawn = |focus: &str| {
+        let mut scene = shown(&view(&script(&cast(focus), "<wait dur=\"1\"/>")), 0.0);
+        scene.look.helpers = true;
+        scene.look.through = ThroughCamera::Free;
+        scene.prepare(Instant::now());
+        scene.controls.shape().lines().iter().map(|vertex| vertex.position).collect::<Vec<_>>()
+    };
+    let (without, with) = (drawn(""), drawn(r#" focus="3""#));
+    // A frame and a cross, three meters ahead.
+    assert_eq!(with.len() - without.len(), 6 * 2);
+    let mark: Vec<_> = with.iter().filter(|at| !without.contains(at)).collect();
+    assert!(!mark.is_empty() && mark.iter().all(|at| (at.z - 5.0).abs() < 1e-4), "{mark:?}");
+}
+
+#[test]
 fn titles_are_drawn_while_they_are_shown() {
     let Some(mut studio) = studio::studio() else { return };
     let text = script(

@@ -2,9 +2,12 @@
 
 use super::{SIZE, arms, drawn_at, script, shown, state, view};
 use dragonfly_anim::fast::matrix::mat4;
+use dragonfly_picture::gizmo::LineInk;
 use dragonfly_picture::pick::Region;
 use dragonfly_picture::scene::Scene;
+use dragonfly_picture::{LineAppearance, LineLook, Look};
 use glam::{Vec2, Vec3};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Returns the pixel where a point is drawn.
@@ -113,4 +116,52 @@ fn the_first_thing_under_the_pointer_is_the_first_of_all_that_are_there() {
         }
     }
     assert!(found > 100, "only {found} places have a thing");
+}
+
+#[test]
+fn a_path_is_picked_along_its_whole_length_while_lines_are_drawn() {
+    let view = view(&arms());
+    let mut scene = shown(&view, 0.0);
+    scene.look.helpers = true;
+    scene.prepare(Instant::now());
+    // Away from the role at its start.
+    let middle = pixel(&scene, Vec3::new(2.0, 0.0, 2.6));
+    let near = |scene: &mut Scene| {
+        scene.pick_things([middle[0], middle[1] + 3.0]).iter().any(|picked| &*picked.thing == "way")
+    };
+    assert!(!near(&mut scene), "no line is drawn");
+    let line = LineLook {
+        points: vec![Vec3::X, Vec3::Y].into(),
+        ink: LineInk::default(),
+        opacity: 1.0,
+        shown: [None; 2],
+        of: None,
+        arrows: Arc::default(),
+        ticks: Arc::default(),
+        dots: Arc::default(),
+    };
+    scene.appearances.set(LineAppearance { lines: vec![line].into(), ..LineAppearance::default() });
+    assert!(near(&mut scene));
+    scene.set_look(Look { hidden_things: vec!["way".into()].into(), ..scene.look.clone() });
+    scene.prepare(Instant::now());
+    assert!(!near(&mut scene), "a hidden path is not picked");
+}
+
+#[test]
+fn an_effect_has_a_symbol_where_it_is_and_is_picked_there() {
+    let text = script(
+        r#"<effect id="rain" kind="particles" at="0 1 0"/><camera id="eye" at="0 1 8" look="0 1 0"/>"#,
+        "<wait dur=\"1\"/>",
+    );
+    let mut scene = shown(&view(&text), 0.0);
+    let lines = |scene: &mut Scene| {
+        scene.prepare(Instant::now());
+        scene.controls.shape().lines().len() / 2
+    };
+    assert_eq!(lines(&mut scene), 0);
+    scene.look.helpers = true;
+    // A camera of ten lines, a ring of sixteen and four drops.
+    assert_eq!(lines(&mut scene), 10 + 16 + 4);
+    let at = pixel(&scene, Vec3::Y);
+    assert_eq!(scene.pick_things(at).first().map(|picked| picked.thing.to_string()).as_deref(), Some("rain"));
 }

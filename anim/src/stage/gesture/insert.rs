@@ -1,10 +1,10 @@
-//! New actions: shots, clips, attachments.
+//! New actions: shots and clips.
 
 use super::draft::ScriptDraft;
 use super::mixes::{ActionOrigins, mixed, with_children};
-use super::scene::{GestureRefusal, GestureScene, refused};
+use super::scene::{GestureRefusal, GestureScene, NO_PLACE, refused};
 use crate::stage::script::ScriptElement;
-use crate::stage::splice::{ElementPlace, NewElement, insert};
+use crate::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
 use crate::stage::table;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::{readable, time_text};
@@ -13,6 +13,28 @@ use crate::stage::time_text::{readable, time_text};
 pub(super) struct ActionPlace {
     pub(super) place: ElementPlace,
     pub(super) base: StageTime,
+}
+
+impl ActionPlace {
+    /// Returns the replacements that add an action here, so that it begins at `at`.
+    pub(super) fn added(
+        &self,
+        scene: &GestureScene<'_>,
+        action: NewElement,
+        at: StageTime,
+    ) -> Result<TextSplices, GestureRefusal> {
+        let action = match at == self.base {
+            true => action,
+            false => {
+                let rate = scene.script.rate();
+                action.with("begin", time_text(readable(at - self.base, rate), rate, ""))
+            }
+        };
+        match insert(scene.script.tree(), self.place, &action) {
+            Some(splices) => Ok(splices),
+            None => refused(NO_PLACE),
+        }
+    }
 }
 
 /// Cuts to a camera at `at`: a new shot, or another camera for the shot that begins then.
@@ -62,7 +84,8 @@ pub fn add_clip(
     add_action(scene, who, NewElement::new("play").with("who", who).with("take", take), at)
 }
 
-/// Adds a `move` of a thing along a path from `at`, with this take; its place in the script is that of [`add_clip`].
+/// Adds a `move` of a thing along a path from `at`, with this take; its place in the script is that of [`add_clip`]. Without a take, what is no role moves at
+/// a meter per second and keeps its direction.
 ///
 /// # Errors
 ///
@@ -79,9 +102,11 @@ pub fn follow_path(
         return refused(format!("\"{path}\" is no path of the cast"));
     }
     let step = NewElement::new("move").with("who", who).with("path", path);
-    let step = match take {
-        Some(take) => step.with("take", take),
-        None => step,
+    let step = match (take, kind_of(scene, who)) {
+        (Some(take), _) => step.with("take", take),
+        (None, Some("role")) => step,
+        // Without a stride it needs a speed, and without legs it need not face its way.
+        (None, _) => step.with("speed", "1").with("turn", "keep"),
     };
     add_action(scene, who, step, at)
 }
@@ -156,38 +181,6 @@ pub(super) fn place_index(scene: &GestureScene<'_>, place: ElementPlace) -> usiz
         // After the cast.
         (None, _) => 1,
     }
-}
-
-/// Attaches a thing to another one, or to a bone of it such as `anna.RightHand`, from `at` on.
-///
-/// # Errors
-///
-/// One of them is not in the cast, or it would hold itself.
-pub fn attach_thing(
-    scene: &GestureScene<'_>,
-    who: &str,
-    to: &str,
-    at: StageTime,
-) -> Result<String, GestureRefusal> {
-    let holder = to.split_once('.').map_or(to, |(holder, _)| holder);
-    if holder == who {
-        return refused("A thing cannot hold itself");
-    }
-    for name in [who, holder] {
-        if scene.plan.thing_called(name).is_none() {
-            return refused(format!("No thing of the cast has the id \"{name}\""));
-        }
-    }
-    let at = at.max(StageTime::ZERO);
-    let own = |&action: &usize| scene.script.element(action).value("who") == Some(who);
-    let near = (1..scene.script.actions().len()).rfind(own);
-    let ActionPlace { place, base } = place_in_par(scene, near);
-    let mut attach = NewElement::new("attach").with("who", who).with("to", to);
-    if at != base {
-        attach = attach
-            .with("begin", time_text(readable(at - base, scene.script.rate()), scene.script.rate(), ""));
-    }
-    ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &attach))?.finish()
 }
 
 /// Returns the place after the action `near`, or after the `seq` around it, in a `par`; at the end of the script without one.

@@ -6,7 +6,7 @@
 //!
 //! Each function changes as few attributes as it can; comments, layout and spelling of the rest stay ([`splice`](super::splice)). The new text
 //! is always a script that can be read and whose times do not depend on themselves. Several things at once are changed by
-//! [`place_splices`] and [`face_splices`], whose results [`spliced_text`] applies and checks together.
+//! the functions that return splices, whose results [`spliced_text`] applies and checks together.
 //!
 //! Where a gesture makes a clip overlap the one before it in its lane, the `fade-in` of the later one is as long as the overlap, as in other
 //! timelines; it follows the overlap unless it was given another length.
@@ -21,36 +21,43 @@
 //! | [`move_clips`], [`delete_clips`] | the same for several actions |
 //! | [`move_to_lane`] | `who` and `begin`, and the place in the text |
 //! | [`copied_clips`], [`paste_clips`] | new elements, one for each that was copied |
-//! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`] | one new element |
-//! | [`move_path_point`] | three numbers of `points` |
+//! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`], [`detach_splices`], [`key_place_splices`] | one new element |
+//! | [`grip_splices`] | `offset` and `turn` of an `attach` |
+//! | [`move_path_point`], [`path_points_splices`] | numbers of `points` |
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
 //! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
 //! `prev` would have another one before it is refused, and so is one of what belongs to the project or to an included file: it is in another text.
 
+mod angles;
 mod attributes;
 mod begin;
 mod copying;
 mod draft;
+mod holding;
 mod insert;
 mod mixes;
 mod moving;
 mod other_lane;
 mod path_points;
+mod place_keys;
 mod places;
 mod removal;
 mod scene;
 mod several;
 mod trim;
 
+pub use angles::{facing_and_tilt, turn_about_axes};
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
 pub use copying::{copied_clips, duplicate_clips, is_copied_clips, paste_clips};
 pub use draft::spliced_text;
-pub use insert::{add_clip, attach_thing, cut_to, follow_path};
+pub use holding::{HeldGrip, attach_splices, attach_thing, detach_splices, grip_splices};
+pub use insert::{add_clip, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
 pub use other_lane::{move_clips_to_lane, move_to_lane};
-pub use path_points::{move_path_point, written_points};
+pub use path_points::{move_path_point, path_points_splices, written_points};
+pub use place_keys::key_place_splices;
 pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene, in_this_text};

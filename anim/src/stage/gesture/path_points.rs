@@ -4,7 +4,7 @@ use super::draft::ScriptDraft;
 use super::scene::{GestureRefusal, in_this_text, refused};
 use crate::stage::line::points_text;
 use crate::stage::script::StageScript;
-use crate::stage::splice::{TextSplice, TextSplices};
+use crate::stage::splice::{TextSplice, TextSplices, set_attribute};
 use crate::stage::table::points;
 use glam::DVec3;
 use std::ops::Range;
@@ -37,6 +37,27 @@ pub fn move_path_point(
     let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
     let splices = TextSplices::new(vec![TextSplice { range, text: point }]);
     ScriptDraft::of(script).then(|_| splices)?.finish()
+}
+
+/// Returns the replacements that give a path of the cast other points, meters, to 0.1 mm.
+///
+/// # Errors
+///
+/// As [`move_path_point`].
+pub fn path_points_splices(
+    script: &StageScript,
+    path: &str,
+    points: &[DVec3],
+) -> Result<TextSplices, GestureRefusal> {
+    let Some(element) = script.thing_element(path).filter(|_| written_points(script, path).is_some()) else {
+        return refused(format!("{path} has no points of its own: move those of its line"));
+    };
+    in_this_text(script.tree(), element)?;
+    if points.iter().any(|point| point.abs().max_element() >= 1e6) {
+        return refused("The position is too far away");
+    }
+    let splices = points_text(points).and_then(|text| set_attribute(script.tree(), element, "points", &text));
+    splices.ok_or_else(|| GestureRefusal("The position is not a number".to_owned()))
 }
 
 /// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.

@@ -15,9 +15,10 @@ use crate::stage::ground::SceneGround;
 use crate::stage::model::StageModel;
 use crate::stage::path::StagePath;
 use crate::stage::script::{ErrorList, ScriptElement, StageScript, suggestion};
-use crate::stage::table::{PROPERTIES, points, vector};
+use crate::stage::table::{PROPERTIES, numbers, points, vector};
 use crate::stage::time::{Decimal, StageTime};
-use glam::{DVec3, Vec3};
+use crate::trig::rotation_about;
+use glam::{DQuat, DVec3, Vec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -53,6 +54,7 @@ impl<'a> StageBinder<'a> {
                 model,
                 path: path.flatten(),
                 ground: None,
+                tilt: tilt(element),
                 places: PlaceLane { base: base(element), cues: Vec::new() },
                 poses: vec![super::poses::PoseLane::default()],
                 looks: Vec::new(),
@@ -236,6 +238,15 @@ const MOST_TURN: f32 = 1.396_263_4;
 fn base(element: &ScriptElement) -> Placement {
     let facing = number(element, "facing").unwrap_or(0.0) * PI / 180.0;
     Placement { position: element.value("at").and_then(vector).unwrap_or(DVec3::ZERO), facing }
+}
+
+/// Returns how a thing is pitched and rolled.
+fn tilt(element: &ScriptElement) -> DQuat {
+    let angles = element.value("tilt").and_then(numbers).unwrap_or_default();
+    let about = |axis: DVec3, index: usize| {
+        rotation_about(axis, angles.get(index).copied().unwrap_or(0.0) * PI / 180.0)
+    };
+    about(DVec3::X, 0) * about(DVec3::Z, 1)
 }
 
 fn path(element: &ScriptElement, assets: &StageAssets, errors: &mut ErrorList) -> Option<StagePath> {

@@ -15,7 +15,7 @@ use crate::fast::matrix::{mat4, transform_point};
 use crate::fast::to_root;
 use crate::ik::{LookAt, look_at};
 use crate::stage::ease::smooth;
-use crate::stage::scene::{ShownTitle, StageScene, StageScratch, ThingState};
+use crate::stage::scene::{StageScene, StageScratch, ThingState};
 use crate::stage::time::StageTime;
 use glam::{DVec3, Vec3};
 
@@ -29,9 +29,7 @@ pub(super) fn evaluate(plan: &StagePlan, time: StageTime, scene: &mut StageScene
     for (thing, state) in plan.things.iter().zip(&mut scene.things) {
         properties(thing, time, state);
     }
-    scene.titles.clear();
-    let titles = plan.titles.iter().enumerate().map(|(title, cue)| (title, cue.span.weight(time) as f32));
-    scene.titles.extend(titles.filter(|one| one.1 > 0.0).map(|(title, weight)| ShownTitle { title, weight }));
+    plan.shown_titles(time, &mut scene.titles);
     plan.playing_sounds(time, &mut scene.sounds);
 }
 
@@ -123,7 +121,7 @@ pub(super) fn position_of(spot: StageSpot, things: &[ThingState]) -> DVec3 {
 }
 
 /// Returns position and rotation of a spot, without any scale.
-fn rigid_of(spot: StageSpot, things: &[ThingState]) -> RigidPlace {
+pub(super) fn rigid_of(spot: StageSpot, things: &[ThingState]) -> RigidPlace {
     let position = position_of(spot, things);
     let rotation = match spot {
         StageSpot::Point(_) => glam::DQuat::IDENTITY,
@@ -139,6 +137,14 @@ fn rigid_of(spot: StageSpot, things: &[ThingState]) -> RigidPlace {
     RigidPlace { position, rotation: rotation.normalize() }
 }
 
+/// Returns the one of the first `count` attachments of a thing that decides where it is; `None` where its motions do.
+pub(super) fn deciding_hold(planned: &PlannedThing, time: StageTime, count: usize) -> Option<usize> {
+    let begun = planned.holds[..count].partition_point(|hold| hold.begin <= time);
+    let hold = planned.holds[..begun].iter().rposition(HoldCue::is_known);
+    let moved = planned.places.last_begin(time);
+    hold.filter(|&at| moved.is_none_or(|moved| (planned.holds[at].begin, planned.holds[at].action) > moved))
+}
+
 /// Returns the place of a thing by its motions and the first `count` of its attachments: what began last decides.
 fn place_of(
     plan: &StagePlan,
@@ -149,14 +155,9 @@ fn place_of(
     fades: usize,
 ) -> RigidPlace {
     let planned = &plan.things[thing];
-    let begun = planned.holds[..count].partition_point(|hold| hold.begin <= time);
-    let hold = planned.holds[..begun].iter().rposition(HoldCue::is_known);
-    let moved = planned.places.last_begin(time);
-    let hold = hold
-        .filter(|&at| moved.is_none_or(|moved| (planned.holds[at].begin, planned.holds[at].action) > moved));
-    let Some(at) = hold else {
+    let Some(at) = deciding_hold(planned, time, count) else {
         let placement = planned.places.at(time);
-        return RigidPlace { position: placement.position, rotation: placement.rotation() };
+        return RigidPlace { position: placement.position, rotation: placement.rotation() * planned.tilt };
     };
     let hold = &planned.holds[at];
     match &hold.kind {

@@ -12,14 +12,22 @@ pub(super) const MOST_FADES: usize = 4;
 
 /// A position and a rotation in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RigidPlace {
-    pub(super) position: DVec3,
-    pub(super) rotation: DQuat,
+pub struct RigidPlace {
+    /// Meters.
+    pub position: DVec3,
+    /// Unit length.
+    pub rotation: DQuat,
 }
 
 impl RigidPlace {
+    /// Returns the place that undoes this one.
+    pub fn inverse(&self) -> Self {
+        let rotation = self.rotation.conjugate();
+        Self { position: rotation * -self.position, rotation }
+    }
+
     /// Returns this place followed by one in its own space.
-    pub(super) fn then(&self, inner: &Self) -> Self {
+    pub fn then(&self, inner: &Self) -> Self {
         Self {
             position: self.position + self.rotation * inner.position,
             rotation: (self.rotation * inner.rotation).normalize(),

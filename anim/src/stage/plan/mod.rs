@@ -11,6 +11,7 @@ mod feet;
 mod follow;
 mod footprints;
 mod ground;
+mod held;
 mod holds;
 mod looks;
 mod motions;
@@ -25,13 +26,16 @@ mod thing;
 
 pub use cues::{SoundCue, TitleCue};
 pub use footprints::{Footprint, PathWalk};
+pub use held::ThingHold;
+pub use holds::RigidPlace;
 pub use placement::Placement;
 pub use thing::PlannedThing;
 
 use super::assets::StageAssets;
 use super::ground::SceneGround;
 use super::scene::{
-    EffectState, LightState, PlayingSound, StageCamera, StageScene, StageScratch, ThingPose, ThingState,
+    EffectState, LightState, PlayingSound, ShownTitle, StageCamera, StageScene, StageScratch, ThingPose,
+    ThingState,
 };
 use super::schedule::Schedule;
 use super::script::{ScriptError, StageScript};
@@ -247,9 +251,34 @@ impl StagePlan {
         self.ground.nearest(point).map(|surface| surface.height)
     }
 
+    /// Writes the titles that are shown at `time`, in the order of [`Self::titles`]. Allocates only where more are shown than `out` has room for.
+    pub fn shown_titles(&self, time: StageTime, out: &mut Vec<ShownTitle>) {
+        out.clear();
+        let titles = self.titles.iter().enumerate().map(|(title, cue)| (title, cue.span.weight(time) as f32));
+        out.extend(titles.filter(|one| one.1 > 0.0).map(|(title, weight)| ShownTitle { title, weight }));
+    }
+
     /// Returns the place of a thing at `time` by its motions alone, as if nothing held it; `None` past the end.
     pub fn placement(&self, thing: usize, time: StageTime) -> Option<Placement> {
         self.things.get(thing).map(|thing| thing.places.at(time))
+    }
+
+    /// Returns the action whose way or take moves a thing at `time`; `None` where nothing moves it, and past the end.
+    pub fn motion_in_progress(&self, thing: usize, time: StageTime) -> Option<usize> {
+        self.things.get(thing)?.places.in_progress(time)
+    }
+
+    /// Returns what holds a thing in `scene`, which [`Self::scene_at`] wrote; `None` where its own motions decide where it is, and past the end.
+    pub fn hold_of(&self, thing: usize, scene: &StageScene) -> Option<ThingHold> {
+        let same_cast = scene.things.len() == self.things.len();
+        same_cast.then(|| held::hold_of(self, thing, scene)).flatten()
+    }
+
+    /// Returns position and rotation of a thing such as `anna`, or of a bone of it such as `anna.RightHand`, in `scene`, which [`Self::scene_at`]
+    /// wrote. `None` where there is no such thing or bone.
+    pub fn place_of_name(&self, name: &str, scene: &StageScene) -> Option<RigidPlace> {
+        let same_cast = scene.things.len() == self.things.len();
+        same_cast.then(|| held::place_of_name(self, name, scene)).flatten()
     }
 
     /// Returns what a camera of the cast sees in `scene`, which [`Self::scene_at`] wrote, whatever is shot; `None` for things that are no

@@ -164,6 +164,17 @@ impl PlaceLane {
         self.cues[..begun].iter().rfind(|cue| cue.moves()).map(|cue| (cue.begin, cue.action))
     }
 
+    /// Returns the action that moves the thing along a path, or with its take, at `time`.
+    pub(super) fn in_progress(&self, time: StageTime) -> Option<usize> {
+        let begun = self.cues.partition_point(|cue| cue.begin <= time);
+        let cue = self.cues[..begun].iter().rfind(|cue| cue.moves())?;
+        let travels = match &cue.kind {
+            MotionKind::Follow(_) | MotionKind::Travel { .. } => true,
+            MotionKind::Put { .. } | MotionKind::Turn { .. } => false,
+        };
+        (travels && time < cue.stop).then_some(cue.action)
+    }
+
     /// Returns the motion of an action that begins at `begin`.
     pub(super) fn cue_of(&self, action: usize, begin: StageTime) -> Option<&PlaceCue> {
         let begun = self.cues.partition_point(|cue| cue.begin <= begin);

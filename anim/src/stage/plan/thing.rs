@@ -10,6 +10,7 @@ use super::spot::StageSpot;
 use crate::stage::ground::GroundMesh;
 use crate::stage::model::StageModel;
 use crate::stage::path::StagePath;
+use glam::DQuat;
 use std::sync::Arc;
 
 /// What is in focus.
@@ -40,6 +41,8 @@ pub struct PlannedThing {
     pub path: Option<Arc<StagePath>>,
     /// Its surface, if it is ground.
     pub(super) ground: Option<Arc<GroundMesh>>,
+    /// Rotation of a prop in its own space, before its direction; none for other things.
+    pub(super) tilt: DQuat,
     pub(super) places: PlaceLane,
     /// The first lane is that of the whole body.
     pub(super) poses: Vec<PoseLane>,

@@ -2,8 +2,8 @@
 
 use super::row::{AttributeRow, ElementGroup, ElementRow, optional, required};
 use super::value::{
-    AMOUNT, COLOR, FOCUS, LENS, NAME, NUMBER, POINTS, POSITIVE, RATE, SEED, SIZE, SOURCE, SPOT, TEXT, VECTOR,
-    VERSION, ValueRow, YES_NO,
+    AMOUNT, COLOR, FOCUS, LENS, NAME, NUMBER, POINTS, POSITIVE, RATE, SEED, SIZE, SOURCE, SPOT, TEXT, TILT,
+    VECTOR, VERSION, ValueRow, YES_NO,
 };
 
 const ID: &[AttributeRow] = &[required("id", NAME, "Name by which actions refer to it.")];
@@ -60,12 +60,20 @@ pub(super) const PROP: ElementRow = thing(
         ID,
         MODEL,
         PLACED,
-        &[optional(
-            "ground",
-            YES_NO,
-            "no",
-            "Whether it is ground for `move` with `ground=\"mesh\"`; nothing may move it then.",
-        )],
+        &[
+            optional(
+                "ground",
+                YES_NO,
+                "no",
+                "Whether it is ground for `move` with `ground=\"mesh\"`; nothing may move it then.",
+            ),
+            optional(
+                "tilt",
+                TILT,
+                "0 0",
+                "Degrees about its own x (pitch) and z (roll), before `facing`; not while it is held.",
+            ),
+        ],
     ],
     "An object that stands somewhere or is carried.",
 );

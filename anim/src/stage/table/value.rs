@@ -109,6 +109,11 @@ pub(super) const POINT_2D: ValueRow =
     ValueRow::new("two numbers, x y, each from 0 to 1", "\\s*[0-9.]+\\s+[0-9.]+\\s*", |text, _| {
         numbers(text).is_some_and(|all| all.len() == 2 && all.iter().all(|part| (0.0..=1.0).contains(part)))
     });
+pub(super) const TILT: ValueRow = ValueRow::new(
+    "two numbers of degrees, pitch and roll",
+    "\\s*[+\\-]?[0-9.]+\\s+[+\\-]?[0-9.]+\\s*",
+    |text, _| numbers(text).is_some_and(|all| all.len() == 2),
+);
 pub(super) const POINTS: ValueRow = ValueRow::new(
     "two or more points of three numbers each, such as 0 0 0  1 0 0",
     "\\s*[+\\-]?[0-9.]+(\\s+[+\\-]?[0-9.]+)+\\s*",

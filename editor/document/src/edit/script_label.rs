@@ -62,6 +62,7 @@ script_labels! {
     MoveCamera = "Move camera",
     Attach = "Attach",
     Detach = "Detach",
+    Focus = "Focus",
     DrawPath = "Draw path",
     DrawLine = "Draw line",
     EraseLine = "Erase line",

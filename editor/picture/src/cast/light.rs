@@ -46,8 +46,8 @@ pub struct SceneLight {
     pub color: Vec3,
 }
 
-/// Returns the lights of a script, dark before the first [`update`].
-pub(super) fn of_script(view: &SceneView, plan: &StagePlan) -> Vec<SceneLight> {
+/// Returns the lights of a script that are not hidden, dark before the first [`update`].
+pub(super) fn of_script(view: &SceneView, plan: &StagePlan, hidden: &[bool]) -> Vec<SceneLight> {
     let elements = view.script.iter().flat_map(|script| script.things());
     let elements: HashMap<&str, _> =
         elements.filter_map(|element| Some((element.value("id")?, element))).collect();
@@ -64,7 +64,8 @@ pub(super) fn of_script(view: &SceneView, plan: &StagePlan) -> Vec<SceneLight> {
             color: Vec3::ZERO,
         }
     };
-    lights.map(|(thing, _)| light(thing)).collect()
+    let shining = lights.filter(|(thing, _)| !hidden.get(*thing).copied().unwrap_or(false));
+    shining.map(|(thing, _)| light(thing)).collect()
 }
 
 /// Reads three numbers as a direction; `None` for anything else and for zero.

@@ -11,7 +11,7 @@ mod placeholder;
 
 pub use lens::camera as viewport_camera;
 pub use light::{LightKind, SceneLight};
-pub use pick::PickedThing;
+pub use pick::{PickedThing, SurfaceHit};
 pub(crate) use placeholder::made_model;
 pub use placeholder::placeholder_box;
 
@@ -86,7 +86,7 @@ pub struct PosedScene {
 
 impl PosedScene {
     /// Returns the scene of `view` before its first time; `None` without a plan. What it has in common with the scene shown `before` is kept.
-    /// The things with the ids `hidden` are neither drawn nor picked.
+    /// The things with the ids `hidden` are neither drawn nor picked, and lights among them do not shine.
     pub fn new(view: &SceneView, hidden: &[Arc<str>], before: Option<Self>) -> Option<Self> {
         let plan = Arc::clone(view.plan.as_ref()?);
         let hidden: HashSet<&str> = hidden.iter().map(|id| &**id).collect();
@@ -138,10 +138,10 @@ impl PosedScene {
             state: plan.new_scene(),
             boxes: vec![AxisBox::EMPTY; members.len()],
             members,
-            hidden,
             groups,
             bounds: Bounds::default(),
-            lights: light::of_script(view, &plan),
+            lights: light::of_script(view, &plan, &hidden),
+            hidden,
             spots: [Vec4::ZERO; SPOTS],
             placeholders,
             back_to_front: Vec::with_capacity(blended),

@@ -18,6 +18,17 @@ pub struct PickedThing {
     pub bone: Option<BoneIndex>,
 }
 
+/// A place on the surface of a thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceHit {
+    /// The thing: a position in the cast.
+    pub thing: usize,
+    /// The bone with the most influence there; `None` for things without bones.
+    pub bone: Option<BoneIndex>,
+    /// Distance from the start of the ray, meters.
+    pub distance: f32,
+}
+
 /// Finds where rays hit the things that share a model.
 pub(super) struct GroupPicker {
     /// `None` if there are too many triangles for a tree.
@@ -66,8 +77,13 @@ impl PosedScene {
         hits.into_iter().map(|(_, thing, bone)| self.picked(thing, bone)).collect()
     }
 
-    /// Returns the nearest thing on a line of sight. The surfaces of things whose boxes are farther away than it are not searched.
+    /// Returns the nearest thing on a line of sight.
     pub(crate) fn pick_first(&mut self, ray: &CameraRay) -> Option<PickedThing> {
+        self.hit_first(ray).map(|hit| self.picked(hit.thing, hit.bone))
+    }
+
+    /// Returns where a ray first hits the surface of a thing, as posed last. The surfaces of things whose boxes are farther away than it are not searched.
+    pub fn hit_first(&mut self, ray: &CameraRay) -> Option<SurfaceHit> {
         let boxes = (0..self.members.len()).filter_map(|thing| Some((self.reach(ray, thing)?, thing)));
         let mut boxes: Vec<(f32, usize)> = boxes.collect();
         boxes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -82,7 +98,7 @@ impl PosedScene {
             };
             first = hit.filter(is_nearer).or(first);
         }
-        first.map(|(_, thing, bone)| self.picked(thing, bone))
+        first.map(|(distance, thing, bone)| SurfaceHit { thing, bone, distance })
     }
 
     /// Returns the distance at which a ray enters the box around what is drawn of a thing; `None` where it does not.

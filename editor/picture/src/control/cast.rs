@@ -5,7 +5,7 @@ use crate::appearance::Appearance;
 use crate::cast::{LightKind, PosedScene};
 use crate::gizmo::{GizmoRole, GizmoShape};
 use dragonfly_anim::bounds::AxisBox;
-use dragonfly_anim::stage::StagePlan;
+use dragonfly_anim::stage::{StageCamera, StagePath, StagePlan};
 use glam::{Quat, Vec3};
 use std::f32::consts::TAU;
 use std::sync::Arc;
@@ -27,6 +27,13 @@ const SIZE: f32 = 0.4;
 const MARK: f32 = 0.25;
 /// Number of sides of a circle.
 const ROUND: usize = 16;
+/// Half the size of the mark at the distance that is in focus, meters.
+const FOCUS: f32 = 0.12;
+/// Radius of the drawing of an effect, meters, and the number of drops below it.
+const EFFECT: f32 = 0.18;
+const DROPS: usize = 4;
+/// Most pieces in which a path is drawn that is under the pointer.
+const PIECES: usize = 200;
 /// Half the size of the box around a thing of which nothing is drawn, meters.
 const HALF: f32 = 0.25;
 
@@ -77,6 +84,9 @@ impl GraphicComponent for CastGraphic {
             if frame.look.helpers && !cast.is_hidden(thing) {
                 draw(cast, thing, role.unwrap_or(GizmoRole::View), shape);
             }
+            if let (Some(path), Some(GizmoRole::Hover)) = (&planned.path, role) {
+                add_path(path, shape);
+            }
             if let Some(role) = role.filter(|_| cast.has_place(thing)) {
                 let around = cast.box_of(thing);
                 let middle = cast.middle_of(thing);
@@ -108,7 +118,12 @@ fn draw(cast: &PosedScene, thing: usize, role: GizmoRole, shape: &mut GizmoShape
                     if is_seen { 1.0 } else { 0.5 },
                     shape,
                 );
+                add_focus(&camera, role, shape);
             }
+        }
+        "effect" => {
+            let weight = cast.state().things[thing].effect.map_or(0.0, |effect| effect.weight);
+            add_effect(place.translation, role, 0.5 + 0.5 * weight, shape);
         }
         "light" => {
             if let Some(light) = cast.lights().iter().find(|light| light.thing == thing) {
@@ -123,7 +138,7 @@ fn draw(cast: &PosedScene, thing: usize, role: GizmoRole, shape: &mut GizmoShape
             add_circle(place.translation, (Vec3::X, Vec3::Z), MARK, role, shape);
             shape.add_line(place.translation, place.translation + ahead * MARK * 2.0, role, 1.0);
         }
-        // Roles, props and effects; paths are drawn with the lines.
+        // Roles and props; paths are drawn with the lines.
         _ => {}
     }
 }
@@ -139,6 +154,44 @@ fn add_camera(at: Vec3, rotation: Quat, half: Vec3, role: GizmoRole, opacity: f3
     let [left, top, right] = [(-0.5, 1.0), (0.0, 1.6), (0.5, 1.0)].map(|(x, y)| corner(x, y));
     shape.add_line(left, top, role, opacity);
     shape.add_line(top, right, role, opacity);
+}
+
+/// Adds a frame with a cross at the distance that is in focus; nothing for a camera for which everything is.
+fn add_focus(camera: &StageCamera, role: GizmoRole, shape: &mut GizmoShape) {
+    let Some(distance) = camera.focus.filter(|distance| distance.is_finite()) else { return };
+    let middle = camera.position + camera.rotation * Vec3::NEG_Z * distance;
+    let [right, up] = [Vec3::X, Vec3::Y].map(|axis| camera.rotation * axis * FOCUS);
+    let corners = [middle - right - up, middle + right - up, middle + right + up, middle - right + up];
+    for (index, &from) in corners.iter().enumerate() {
+        shape.add_line(from, corners[(index + 1) % corners.len()], role, 0.8);
+    }
+    shape.add_line(middle - right, middle + right, role, 0.8);
+    shape.add_line(middle - up, middle + up, role, 0.8);
+}
+
+/// Adds a ring with drops below it.
+fn add_effect(at: Vec3, role: GizmoRole, opacity: f32, shape: &mut GizmoShape) {
+    for side in 0..ROUND {
+        let point = |side: usize| {
+            let (sin, cos) = (side as f32 / ROUND as f32 * TAU).sin_cos();
+            at + Vec3::new(cos, 0.0, sin) * EFFECT
+        };
+        shape.add_line(point(side), point(side + 1), role, opacity);
+    }
+    for drop in 0..DROPS {
+        let (sin, cos) = (drop as f32 / DROPS as f32 * TAU).sin_cos();
+        let from = at + Vec3::new(cos, -0.6, sin) * EFFECT * 0.7;
+        shape.add_line(from, from - Vec3::Y * EFFECT * 0.8, role, opacity);
+    }
+}
+
+/// Adds a path that is under the pointer.
+fn add_path(path: &StagePath, shape: &mut GizmoShape) {
+    let pieces = ((path.length() / 0.1).ceil().max(1.0) as usize).min(PIECES);
+    let at = |piece: usize| path.at(path.length() * piece as f64 / pieces as f64).position.as_vec3();
+    for piece in 0..pieces {
+        shape.add_line(at(piece), at(piece + 1), GizmoRole::Hover, 1.0);
+    }
 }
 
 fn add_circle(at: Vec3, (right, up): (Vec3, Vec3), radius: f32, role: GizmoRole, shape: &mut GizmoShape) {

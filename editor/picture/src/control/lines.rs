@@ -4,10 +4,9 @@ use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;
 use crate::cast::PosedScene;
 use crate::gizmo::{GizmoRole, GizmoShape, GizmoView, LineInk};
-use dragonfly_anim::fast::matrix::mat4;
 use dragonfly_anim::stage::line::DrawnLine;
 use dragonfly_anim::stage::time::StageTime;
-use glam::{Mat4, Quat, Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 use std::sync::Arc;
 
 /// Length of the strokes of an arrow along its path and to its side, meters.
@@ -140,22 +139,8 @@ fn is_shown(line: &LineLook, now: f64) -> bool {
 
 /// Returns the place of a thing, or of a bone of it, without its scale, so that lengths stay meters.
 fn place_of(cast: &PosedScene, of: &str) -> Option<Mat4> {
-    let (thing, bone) = of.split_once('.').map_or((of, None), |(thing, bone)| (thing, Some(bone)));
-    let thing = cast.plan().thing_called(thing)?;
-    let state = cast.state().things.get(thing)?;
-    let of_thing = state.transform.to_matrix();
-    let place = match bone {
-        None => of_thing,
-        Some(bone) => {
-            let skeleton = cast.plan().things().get(thing)?.model.as_ref()?.skeleton();
-            let index = skeleton.find(bone)?;
-            of_thing * mat4(state.pose.as_ref()?.to_root.get(index as usize))
-        }
-    };
-    let [x, y, z] = [place.x_axis, place.y_axis, place.z_axis].map(|axis| axis.truncate());
-    let axes = [x.normalize_or(Vec3::X), y.normalize_or(Vec3::Y), z.normalize_or(Vec3::Z)];
-    let rotation = Quat::from_mat3(&glam::Mat3::from_cols(axes[0], axes[1], axes[2]));
-    Some(Mat4::from_rotation_translation(rotation, place.w_axis.truncate()))
+    let place = cast.plan().place_of_name(of, cast.state())?;
+    Some(Mat4::from_rotation_translation(place.rotation.as_quat(), place.position.as_vec3()))
 }
 
 fn draw(line: &LineLook, place: Mat4, shape: &mut GizmoShape) {

@@ -83,6 +83,8 @@ pub struct LineControl {
     surface: LineSurface,
     /// A place on the plane of lines that are drawn in the view, scene space.
     pivot: DVec3,
+    /// The place on a surface under the pointer, scene space.
+    hit: Option<DVec3>,
     phase: LinePhase,
     answer: Option<LineAnswer>,
 }
@@ -107,6 +109,11 @@ impl LineControl {
         }
     }
 
+    /// Returns where lines of a project are drawn.
+    pub fn note_surface(&self) -> LineSurface {
+        self.surface
+    }
+
     /// Chooses where lines are drawn.
     pub fn set_surface(&mut self, surface: LineSurface) {
         self.surface = surface;
@@ -115,6 +122,22 @@ impl LineControl {
     /// Sets the place through which the plane of lines in the view goes, scene space.
     pub fn set_pivot(&mut self, pivot: DVec3) {
         self.pivot = pivot;
+    }
+
+    /// Sets the place on a surface under the pointer, scene space. Lines in the view, and lines that leave a surface, continue at its depth.
+    pub fn set_hit(&mut self, hit: Option<DVec3>) {
+        self.hit = hit;
+        self.pivot = hit.unwrap_or(self.pivot);
+    }
+
+    /// Returns whether lines follow surfaces.
+    pub fn follows_surfaces(&self) -> bool {
+        matches!(self.surface(), LineSurface::Surface | LineSurface::Bone)
+    }
+
+    /// Returns whether a line is being drawn.
+    pub fn is_drawing(&self) -> bool {
+        !matches!(self.phase, LinePhase::Idle | LinePhase::Erase)
     }
 
     /// Returns the next outcome since the last call.
@@ -159,7 +182,8 @@ impl LineControl {
     }
 
     fn place_at(&self, at: Vec2) -> Option<DVec3> {
-        self.plane()?.place_at(at.as_dvec2())
+        let on_surface = self.hit.filter(|_| self.follows_surfaces());
+        on_surface.or_else(|| self.plane()?.place_at(at.as_dvec2()))
     }
 
     /// Ends a line. One without length is none.

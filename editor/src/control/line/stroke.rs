@@ -16,8 +16,12 @@ pub enum LineSurface {
     /// On the ground, at height 0.
     #[default]
     Ground,
-    /// In a plane that faces the viewer.
+    /// In a plane that faces the viewer, at the depth of what is under the pointer when the button is pressed.
     View,
+    /// On what is under the pointer.
+    Surface,
+    /// On what is under the pointer, so that the line moves with the bone at its start.
+    Bone,
 }
 
 /// A line that was drawn, scene space.
@@ -56,14 +60,15 @@ impl DrawingPlane {
         let (origin, direction) = self.view.ray(at);
         let (through, normal) = match self.surface {
             LineSurface::Ground => (DVec3::ZERO, DVec3::Y),
-            LineSurface::View => (self.pivot, self.view.back),
+            // A line that leaves a surface continues at the depth where it left it.
+            LineSurface::View | LineSurface::Surface | LineSurface::Bone => (self.pivot, self.view.back),
         };
         let slope = direction.dot(normal);
         let along = (through - origin).dot(normal) / slope;
         let place = origin + direction * along;
         let place = match self.surface {
             LineSurface::Ground => place.with_y(0.0),
-            LineSurface::View => place,
+            LineSurface::View | LineSurface::Surface | LineSurface::Bone => place,
         };
         (slope.abs() > LEAST_SLOPE && along > 0.0 && place.is_finite()).then_some(place)
     }
@@ -95,7 +100,9 @@ impl StrokeMeasure {
         let by = to - from;
         let angle = match plane.surface {
             LineSurface::Ground => by.x.atan2(by.z),
-            LineSurface::View => by.dot(plane.view.up).atan2(by.dot(plane.view.right)),
+            LineSurface::View | LineSurface::Surface | LineSurface::Bone => {
+                by.dot(plane.view.up).atan2(by.dot(plane.view.right))
+            }
         };
         Self { length: by.length(), angle: (by.length() > 0.0).then_some(angle.to_degrees()) }
     }

@@ -54,6 +54,7 @@ pub(in crate::panels) fn let_through(
         | Effect::NewScene(_)
         | Effect::DemoScene(_)
         | Effect::NewProject(_)
+        | Effect::LookAtModels(_)
         | Effect::RetryDevice) => pass(effect),
     }
 }

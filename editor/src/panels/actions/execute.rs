@@ -119,6 +119,7 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Sets(action) => sets::perform(workspace, &action),
         Request::Scene(request) => return scene::perform(workspace, request),
         Request::Dropped(files) => return dropped::dropped(workspace, files),
+        Request::DroppedModels(models) => return dropped::add_known(workspace, &models),
         Request::AddLayerFrom(take) => return layers::add_from(workspace, take),
         Request::AddRole(path) => return scene::add_model(workspace, &path, NewThing::Role),
         Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),

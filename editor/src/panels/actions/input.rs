@@ -1,8 +1,8 @@
 //! Input of the viewport: events reach the tools as they happen, and the resulting effects are passed on at once.
 
-use super::{locks, playback, scene_camera, scene_gizmo, scene_lines, scene_points, tools};
+use super::{locks, playback, scene_camera, scene_focus, scene_gizmo, scene_lines, scene_points, tools};
 use crate::control::path_point::PathKey;
-use crate::control::{Button, InputEvent, ToolOutcome, ViewportOutcome};
+use crate::control::{Button, InputEvent, Key, ToolOutcome, ViewportOutcome};
 use crate::panels::request::Effect;
 use crate::panels::tool_drag::Alone;
 use crate::panels::workspace::Workspace;
@@ -10,7 +10,7 @@ use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::Edit;
 use dragonfly_document::posing;
-use egui::pos2;
+use egui::{Pos2, pos2};
 use glam::Vec2;
 use std::sync::Arc;
 use std::time::Instant;
@@ -24,6 +24,10 @@ pub(in crate::panels) fn input(
     event: InputEvent,
     effects: &mut Vec<Effect>,
 ) -> bool {
+    if event == InputEvent::KeyDown(Key::Escape) && workspace.stage.focused_camera().is_some() {
+        workspace.stage.focus(None);
+        return true;
+    }
     let pressed = event == InputEvent::MouseDown(Button::Left);
     if pressed && workspace.player.is_playing() && workspace.tools.controls().over_handle() {
         // Playback must not move a handle that is being dragged.
@@ -31,6 +35,7 @@ pub(in crate::panels) fn input(
         playback::pause(workspace);
         tools::sync_gizmo(workspace);
     }
+    scene_lines::follow_surface(workspace, event);
     let taken = workspace.tools.input(event, workspace.camera.camera());
     if taken && matches!(event, InputEvent::MouseDown(_)) {
         // The viewport was used last, so the copy command copies the pose.
@@ -49,7 +54,7 @@ fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     match outcome {
         Some(ViewportOutcome::Pick(at, choice)) => {
             workspace.tools.set_clicked_handle(false);
-            effects.push(Effect::Pick(corner + egui::vec2(at.x, at.y), choice));
+            pick(workspace, corner + egui::vec2(at.x, at.y), choice, effects);
         }
         Some(ViewportOutcome::Catch(region, choice)) => effects.push(Effect::Catch(region, choice)),
         None => {}
@@ -59,12 +64,20 @@ fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     }
 }
 
+/// Sets the focus of a camera to what was clicked, where one waits for that; otherwise selects it.
+fn pick(workspace: &mut Workspace, at: Pos2, choice: Choice, effects: &mut Vec<Effect>) {
+    match workspace.stage.focused_camera().is_some() {
+        true => effects.extend(scene_focus::pick(workspace, at, choice)),
+        false => effects.push(Effect::Pick(at, choice)),
+    }
+}
+
 /// Carries out what a tool asks for.
 fn take_tool_outcome(workspace: &mut Workspace, outcome: ToolOutcome, effects: &mut Vec<Effect>) {
     match outcome {
         ToolOutcome::Click(mouse) => {
             workspace.tools.set_clicked_handle(true);
-            effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers)));
+            pick(workspace, pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers), effects);
         }
         ToolOutcome::Refused => tools::say_refused(workspace),
         ToolOutcome::Poses if workspace.read().scene().is_some() => scene_gizmo::send(workspace, effects),

@@ -29,6 +29,7 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         | Effect::ResetLayout
         | Effect::RetryDevice
         | Effect::NewScene(_)
+        | Effect::LookAtModels(_)
         | Effect::DemoScene(_)
         | Effect::NewProject(_)
         | Effect::File(_) => &[],

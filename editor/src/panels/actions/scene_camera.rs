@@ -1,6 +1,7 @@
 //! Looking through the cameras of a scene, and moving them by orbiting.
 
-use super::scene_gizmo::{BaseMoment, spliced};
+use super::scene_gizmo::spliced;
+use super::scene_moves::{BaseMoment, distance_of_look, tracked};
 use super::scene_text::text_change;
 use crate::panels::scene::{SceneBase, ScriptChange};
 use crate::panels::status::MessageSeverity;
@@ -69,8 +70,11 @@ pub(super) fn update(workspace: &mut Workspace) {
     if workspace.stage.camera_drag().is_some() {
         return;
     }
-    let camera = seen(workspace)
-        .map(|(seen, image)| viewport_camera(&seen, image, workspace.camera.aspect(), &Sphere::default()));
+    let camera = seen(workspace).map(|(seen, image)| {
+        // The view orbits about what the camera looks at.
+        let center = target_of(workspace, &seen).unwrap_or_default();
+        viewport_camera(&seen, image, workspace.camera.aspect(), &Sphere { center, radius: 0.0 })
+    });
     if camera.is_none() && *workspace.camera.through() != ThroughCamera::Free {
         // The camera was deleted or renamed.
         workspace.camera.set_through(ThroughCamera::Free);
@@ -93,6 +97,19 @@ fn seen(workspace: &mut Workspace) -> Option<(StageCamera, f32)> {
         ThroughCamera::Of(id) => plan.camera_of(plan.thing_called(id)?, things),
     };
     Some((camera?, width.max(1) as f32 / height.max(1) as f32))
+}
+
+/// Returns the point that the script lets a camera look at, at the time shown; `None` for one that looks straight ahead.
+fn target_of(workspace: &mut Workspace, seen: &StageCamera) -> Option<Vec3> {
+    let (scene, time) = (workspace.model.view()?.scene.clone()?, workspace.read().scene_time());
+    let (script, plan) = (scene.script.as_ref()?, scene.plan.as_ref()?);
+    let element = script.thing_element(&plan.things().get(seen.thing)?.id)?;
+    let look = script.tree().elements()[element].value("look")?;
+    if let Some(point) = vector(look) {
+        return Some(point.as_vec3());
+    }
+    let things = workspace.stage.things_at(plan, time);
+    Some(plan.place_of_name(look, things)?.position.as_vec3())
 }
 
 /// Moves the camera of the scene after the view that the user gave it, and ends the step when the mouse is released. The movements of a wheel, and
@@ -140,7 +157,8 @@ fn moved_camera(
     let gesture = gesture.unwrap_or_else(|| workspace.dragging.new_gesture());
     workspace.stage.move_camera(gesture, base.clone(), turned);
     let time = workspace.read().scene_time();
-    let moment = BaseMoment { base: &base, things: workspace.stage.base_things(&base.plan, time), time };
+    let things = workspace.stage.base_things(&base.plan, time);
+    let moment = BaseMoment { base: &base, things, time, is_keyed: false };
     let thing = match workspace.camera.through() {
         ThroughCamera::Free => None,
         ThroughCamera::Shot => moment.things.camera.map(|camera| camera.thing),
@@ -152,14 +170,10 @@ fn moved_camera(
         return Err(GestureRefusal(format!("{id} is locked")));
     }
     let (eye, before) = (moved.eye(), moment.things.things[thing].transform.translation);
-    let look = eye - moved.back() * distance_of_look(&base, id, before);
-    let parts = vec![moment.placed(thing, eye, None)?, moment.looking(id, look)?];
+    let mut parts = vec![moment.placed(thing, eye, None)?];
+    if tracked(&base, id).is_none() {
+        let look = eye - moved.back() * distance_of_look(&base, id, before);
+        parts.push(moment.looking(id, look)?);
+    }
     spliced(workspace, &base, parts, ScriptLabel::MoveCamera, gesture)
-}
-
-/// Returns the distance from a camera to the point that it looks at, meters; 3 where the script names a thing instead of a point.
-pub(super) fn distance_of_look(base: &SceneBase, id: &str, position: Vec3) -> f32 {
-    let element = base.script.thing_element(id).map(|element| &base.script.tree().elements()[element]);
-    let point = element.and_then(|element| element.value("look")).and_then(vector);
-    point.map_or(3.0, |point| point.as_vec3().distance(position).max(0.1))
 }

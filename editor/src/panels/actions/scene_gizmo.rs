@@ -1,29 +1,23 @@
 //! The gizmo of the selected things of a scene: a drag becomes a new text of the script.
 
-use super::scene_camera::distance_of_look;
 use super::scene_ground::{heights_on_ground, on_ground};
+use super::scene_moves::BaseMoment;
 use crate::panels::request::Effect;
 use crate::panels::scene::{SceneBase, ScriptChange};
 use crate::panels::status::MessageSeverity;
 use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
-use dragonfly_anim::stage::StageScene;
-use dragonfly_anim::stage::gesture::{
-    GestureRefusal, face_splices, in_this_text, place_splices, spliced_text,
-};
-use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
+use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text, written_points};
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::gizmo::{PosedSkeleton, Tool};
-use glam::{Mat4, Quat, Vec3};
+use glam::{DVec3, Mat4, Vec3};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// Distance between the place of a thing and the one that its own motions give it, above which something else carries it, meters.
-const CARRIED: f32 = 1e-3;
 
 /// Places the gizmo at the selected things, at the time shown. Does nothing if nothing changed; a drag keeps its place.
 pub(super) fn sync(workspace: &mut Workspace, placement: PlacedGizmo) {
@@ -35,9 +29,10 @@ pub(super) fn sync(workspace: &mut Workspace, placement: PlacedGizmo) {
     let selected = workspace.scene.things().iter().filter(|id| !workspace.scene.is_hidden(id));
     let things = selected.filter_map(|id| plan.thing_called(id));
     if placement.tool.is_some() {
-        bones.extend(
-            things.filter(|&thing| plan.things()[thing].path.is_none()).map(|thing| thing as BoneIndex),
-        );
+        let has_gizmo = |&thing: &usize| {
+            plan.things()[thing].path.is_none() || middle_of_path(&scene, &plan.things()[thing].id).is_some()
+        };
+        bones.extend(things.filter(has_gizmo).map(|thing| thing as BoneIndex));
     }
     let active = bones.last().copied();
     let refused = refusal(workspace, &scene).is_some();
@@ -49,13 +44,23 @@ pub(super) fn sync(workspace: &mut Workspace, placement: PlacedGizmo) {
     if !workspace.tools.is_placed_elsewhere(&placement) {
         return workspace.tools.reuse(placement);
     }
-    let places: Vec<Transform> =
+    let mut places: Vec<Transform> =
         workspace.stage.things_at(plan, time).things.iter().map(|thing| thing.transform).collect();
+    for &thing in &placement.bones {
+        let (place, id) = (&mut places[thing as usize], &plan.things()[thing as usize].id);
+        place.translation = middle_of_path(&scene, id).unwrap_or(place.translation);
+    }
     let to_root: Vec<Mat4> = places.iter().map(|place| place.to_matrix()).collect();
     let bone = |place: &Transform| Bone { rest: *place, ..Bone::root("") };
     let skeleton = Skeleton { bones: places.iter().map(bone).collect() };
     let pose = PosedSkeleton { skeleton: &skeleton, poses: &places, to_root: &to_root };
     workspace.tools.place_gizmo(pose, placement, !refused);
+}
+
+/// Returns the middle of the points of a path, at which its gizmo is; `None` for other things, and for a path along a line.
+fn middle_of_path(scene: &SceneView, id: &str) -> Option<Vec3> {
+    let points = written_points(scene.script.as_ref()?, id)?;
+    Some((points.iter().sum::<DVec3>() / points.len().max(1) as f64).as_vec3())
 }
 
 /// Shows no gizmo. It is the same at each time, so that nothing is computed while a scene plays.
@@ -131,7 +136,9 @@ fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefu
     let gesture = workspace.tools.drag().gesture().unwrap_or_else(|| workspace.dragging.new_gesture());
     let time = workspace.read().scene_time();
     let heights = kept_heights(workspace, &scene, time);
-    let moment = BaseMoment { base: &base, things: workspace.stage.base_things(&base.plan, time), time };
+    let is_keyed = workspace.settings.auto_key && time > StageTime::ZERO;
+    let things = workspace.stage.base_things(&base.plan, time);
+    let moment = BaseMoment { base: &base, things, time, is_keyed };
     let gizmo = &workspace.tools.controls().gizmo().gizmo;
     let mut parts = Vec::new();
     for (drag, before) in gizmo.drag().bones.iter().zip(gizmo.before()) {
@@ -191,127 +198,4 @@ pub(super) fn spliced(
     }
     let text = spliced_text(&base.script, splices)?;
     Ok(Some(ScriptChange { from: Arc::clone(base.text()), text, label, gesture: Some(gesture) }))
-}
-
-/// The scene at the start of a drag, with its things at the time shown.
-pub(super) struct BaseMoment<'a> {
-    pub(super) base: &'a SceneBase,
-    pub(super) things: &'a StageScene,
-    pub(super) time: StageTime,
-}
-
-impl BaseMoment<'_> {
-    /// Adds the replacements that put a thing where the gizmo put it: now, and before.
-    fn moved(
-        &self,
-        thing: usize,
-        tool: Tool,
-        [now, before]: [Transform; 2],
-        parts: &mut Vec<TextSplices>,
-    ) -> Result<(), GestureRefusal> {
-        let planned = self.base.plan.things().get(thing);
-        let planned = planned.ok_or_else(|| GestureRefusal("The thing is gone".to_owned()))?;
-        let is_turned = tool == Tool::Rotate && planned.kind != "camera";
-        let facing = is_turned.then(|| facing(now.rotation));
-        let is_moved = tool == Tool::Move || now.translation != before.translation;
-        match facing {
-            _ if is_moved => parts.push(self.placed(thing, now.translation, facing)?),
-            Some(facing) => {
-                parts.push(face_splices(&self.base.scene(), &planned.id, self.time, facing)?);
-            }
-            None => {}
-        }
-        match tool {
-            Tool::Rotate if !is_turned => {
-                let ahead = now.rotation * before.rotation.inverse() * self.direction_of_camera(thing);
-                let distance = distance_of_look(self.base, &planned.id, before.translation);
-                parts.push(self.looking(&planned.id, now.translation + ahead * distance)?);
-            }
-            Tool::Scale => parts.push(self.scaled(&planned.id, now.scale / before.scale)?),
-            Tool::Move | Tool::Rotate => {}
-        }
-        Ok(())
-    }
-
-    /// Returns the replacements that put a thing at `position`, with another direction where there is one, degrees. Refused where something carries it, and
-    /// where it follows a path.
-    pub(super) fn placed(
-        &self,
-        thing: usize,
-        position: Vec3,
-        facing: Option<f64>,
-    ) -> Result<TextSplices, GestureRefusal> {
-        let (script, plan) = (&self.base.script, &self.base.plan);
-        let id = &plan.things()[thing].id;
-        let own = plan.placement(thing, self.time).unwrap_or_default().position.as_vec3();
-        let shown = self.things.things.get(thing).map_or(own, |thing| thing.transform.translation);
-        if shown.distance(own) > CARRIED {
-            return Err(GestureRefusal(format!("Something holds {id} at this time: move what holds it")));
-        }
-        let follows = (1..script.actions().len()).find(|&action| {
-            let element = script.element(action);
-            element.row.name == "move"
-                && element.value("who") == Some(id)
-                && element.value("path").is_some()
-                && plan.schedule().times().get(action).is_some_and(|times| times.begin <= self.time)
-        });
-        if let Some(path) = follows.and_then(|action| script.element(action).value("path")) {
-            return Err(GestureRefusal(format!("{id} follows the path {path} at this time: move the path")));
-        }
-        place_splices(&self.base.scene(), id, self.time, rounded(position), facing)
-    }
-
-    /// Returns the replacements with which a camera of the cast looks at a point.
-    pub(super) fn looking(&self, id: &str, look: Vec3) -> Result<TextSplices, GestureRefusal> {
-        let value = rounded(look).to_array().map(|number| number.to_string()).join(" ");
-        self.set(id, "look", &value)
-    }
-
-    /// Returns the replacements that give a role or a prop another size.
-    fn scaled(&self, id: &str, by: Vec3) -> Result<TextSplices, GestureRefusal> {
-        let script = &self.base.script;
-        let element = script.thing_element(id).map(|element| &script.tree().elements()[element]);
-        let has_scale = element.is_some_and(|element| element.row.attribute("scale").is_some());
-        if !has_scale {
-            return Err(GestureRefusal(format!("{id} has no size of its own")));
-        }
-        // The axis that changed most.
-        let by = by.to_array().into_iter().max_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
-        let written =
-            element.and_then(|element| element.value("scale")).and_then(|scale| scale.parse::<f64>().ok());
-        let scale = (written.unwrap_or(1.0) * f64::from(by.unwrap_or(1.0)) * 1e5).round() / 1e5;
-        if !(scale.is_finite() && scale > 0.0) {
-            return Err(GestureRefusal("The size has to be greater than zero".to_owned()));
-        }
-        self.set(id, "scale", &scale.to_string())
-    }
-
-    fn set(&self, id: &str, attribute: &str, value: &str) -> Result<TextSplices, GestureRefusal> {
-        let script = &self.base.script;
-        if let Some(element) = script.thing_element(id) {
-            in_this_text(script.tree(), element)?;
-        }
-        let splices =
-            script.thing_element(id).and_then(|own| set_attribute(script.tree(), own, attribute, value));
-        splices.ok_or_else(|| GestureRefusal(format!("{attribute} of {id} cannot be written here")))
-    }
-
-    /// Returns the direction in which a camera looks.
-    fn direction_of_camera(&self, thing: usize) -> Vec3 {
-        let camera = self.base.plan.camera_of(thing, self.things);
-        camera.map_or(Vec3::NEG_Z, |camera| camera.rotation * Vec3::NEG_Z)
-    }
-}
-
-/// Returns the direction of a rotation about the vertical, degrees, to a hundredth: 0 looks along +z, 90 along +x.
-fn facing(rotation: Quat) -> f64 {
-    let ahead = rotation * Vec3::Z;
-    let degrees = f64::from(ahead.x).atan2(f64::from(ahead.z)).to_degrees();
-    (degrees * 100.0).round() / 100.0
-}
-
-/// Returns a position to a millimeter.
-fn rounded(position: Vec3) -> glam::DVec3 {
-    // Adding zero makes a zero of a negative one.
-    (position.as_dvec3() * 1000.0).round() / 1000.0 + 0.0
 }

@@ -1,6 +1,8 @@
 //! Things on the ground: while they are moved, by a command, and where a file is dropped.
 
-use super::scene_gizmo::{BaseMoment, joined};
+use super::scene_gizmo::joined;
+use super::scene_moves::BaseMoment;
+use super::scene_probe::{pointer, ray_at};
 use super::scene_text::gesture;
 use crate::panels::request::Effect;
 use crate::panels::workspace::Workspace;
@@ -9,8 +11,8 @@ use dragonfly_anim::stage::{PlannedThing, StagePlan};
 use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_picture::PosedScene;
-use dragonfly_picture::gizmo::GizmoView;
-use glam::{DVec3, Vec2, Vec3};
+use egui::Pos2;
+use glam::{DVec3, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -44,7 +46,7 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
                 "Nothing that is selected can stand: choose roles, props or marks".to_owned(),
             ));
         }
-        let moment = BaseMoment { base, things: &state, time };
+        let moment = BaseMoment { base, things: &state, time, is_keyed: false };
         let placed = |(thing, height): (usize, f32)| {
             let place = state.things[thing].transform.translation;
             moment.placed(thing, on_ground(&base.plan, thing, place, height), None)
@@ -108,16 +110,14 @@ fn posed_alone(
 
 /// Returns the place on the ground under the pointer, or under the middle of the viewport while the pointer is elsewhere; `None` where there is no ground near.
 pub(super) fn pointed(workspace: &Workspace) -> Option<DVec3> {
-    let rect = workspace.camera.viewport();
-    let corner = Vec2::new(rect.min.x, rect.min.y);
-    let size = Vec2::new(rect.width(), rect.height());
-    let inside = |at: &Vec2| rect.contains(egui::pos2(at.x, at.y));
-    let pointer = workspace.tools.controls().pointer().filter(inside);
-    let at = pointer.map_or(0.5 * size, |at| at - corner);
-    let camera = workspace.camera.camera();
-    let (origin, direction) = GizmoView::new(camera, size).ray(at.as_dvec2());
+    ground_at(workspace, pointer(workspace).unwrap_or(workspace.camera.viewport().center()))
+}
+
+/// Returns the place on the ground at a position of the window, points; `None` outside of the viewport and where there is no ground near.
+pub(super) fn ground_at(workspace: &Workspace, at: Pos2) -> Option<DVec3> {
+    let (origin, direction) = ray_at(workspace, at)?;
     let along = -origin.y / direction.y;
-    let is_near = along > 0.0 && along < FARTHEST * f64::from(camera.distance);
+    let is_near = along > 0.0 && along < FARTHEST * f64::from(workspace.camera.camera().distance);
     let place = (origin + direction * along).with_y(0.0);
     (direction.y.abs() > LEAST_SLOPE && is_near && place.is_finite()).then_some(place)
 }

@@ -1,17 +1,21 @@
 //! Lines and paths of a scene: drawn, erased, followed.
 
 use super::line_edit::{NO_PROJECT, lines_edit, lines_edit_of};
+use super::scene_probe::{PointedSurface, pointer, surface_at};
 use super::scene_text::{self, gesture};
 use super::{pose_line, tools};
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
+use crate::control::{Button, InputEvent};
 use crate::panels::request::Effect;
-use crate::panels::scene::{LineEraser, LineRequest, NewThing, line_name, line_named};
+use crate::panels::scene::{LineEraser, LineRequest, NewThing, begin_text, line_name, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
-use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, points_text};
+use dragonfly_anim::stage::line::{DrawnLines, NewLine, path_points, points_text};
 use dragonfly_anim::stage::splice::TextSplices;
-use dragonfly_anim::stage::{PlannedThing, StageTake};
+use dragonfly_anim::stage::table::element;
+use dragonfly_anim::stage::time::StageTime;
+use dragonfly_anim::stage::{PlannedThing, RigidPlace, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptLabel};
 use dragonfly_document::{Change, SceneView, paths_of_renamed_line};
 use dragonfly_picture::gizmo::GizmoView;
@@ -105,11 +109,31 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
     let taken = |id: &str| scene.lines.as_ref().is_some_and(|lines| lines.called(id).is_some());
     let id = (1_u32..).map(|number| format!("line-{number}")).find(|id| !taken(id))?;
-    let attributes = match stroke.on {
+    let mut points = stroke.control.clone();
+    let on = |name: &str| ("on".to_owned(), name.to_owned());
+    let mut attributes = match stroke.on {
         LineSurface::Ground => Vec::new(),
-        LineSurface::View => vec![("on".to_owned(), "view".to_owned())],
+        LineSurface::View => vec![on("view")],
+        LineSurface::Surface => vec![on("surface")],
+        LineSurface::Bone => {
+            let holder = workspace.stage.pressed_on().map(str::to_owned);
+            let place = holder.as_deref().and_then(|of| place_of(workspace, of));
+            let Some((of, place)) = holder.zip(place) else {
+                let text = "Begin the line on the bone or thing with which it is to move";
+                workspace.say(MessageSeverity::Info, text);
+                return None;
+            };
+            let own = place.inverse();
+            points.iter_mut().for_each(|point| *point = own.rotation * *point + own.position);
+            vec![on("bone"), ("of".to_owned(), of)]
+        }
     };
-    let line = NewLine { id: Some(id.clone()), points: stroke.control.clone(), attributes };
+    let from = workspace.read().scene_time();
+    let script = scene.script.as_ref().filter(|_| workspace.settings.tools.lines_from_playhead);
+    if let Some(script) = script.filter(|_| from > StageTime::ZERO) {
+        attributes.push(("from".to_owned(), begin_text(from, script.rate())));
+    }
+    let line = NewLine { id: Some(id.clone()), points, attributes };
     let effect = edit_lines(workspace, &scene, ScriptLabel::DrawLine, |lines| lines.added(&line));
     if effect.is_some() {
         workspace.scene.lines_mut().select(Some(id.into()));
@@ -117,14 +141,64 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
     effect
 }
 
+/// Notes what is under the pointer, for lines that follow it: when a button is pressed, and while a line on a surface is drawn.
+pub(super) fn follow_surface(workspace: &mut Workspace, event: InputEvent) {
+    let line = workspace.tools.controls().line();
+    if line.use_of() != Some(LineUse::Note) || line.note_surface() == LineSurface::Ground {
+        return;
+    }
+    let at = match event {
+        InputEvent::MouseDown(Button::Left) if !line.is_drawing() || line.follows_surfaces() => {
+            pointer(workspace)
+        }
+        InputEvent::MouseMove(to) if line.is_drawing() && line.follows_surfaces() => {
+            Some(egui::pos2(to.x, to.y))
+        }
+        _ => return,
+    };
+    let surface = at.and_then(|at| surface_at(workspace, at, &[]));
+    let is_first = !workspace.tools.controls().line().is_drawing();
+    if is_first {
+        workspace.stage.press_on(surface.as_ref().map(PointedSurface::name));
+        let target = workspace.camera.camera().target.as_dvec3();
+        workspace.tools.controls_mut().line_mut().set_pivot(target);
+    }
+    workspace.tools.controls_mut().line_mut().set_hit(surface.map(|surface| surface.place));
+}
+
+/// Returns the place of a thing or a bone at the time shown, by its name in scripts.
+pub(super) fn place_of(workspace: &mut Workspace, name: &str) -> Option<RigidPlace> {
+    let plan = workspace.model.view()?.scene.as_ref()?.plan.clone()?;
+    let time = workspace.read().scene_time();
+    plan.place_of_name(name, workspace.stage.things_at(&plan, time))
+}
+
+/// Returns the place of what the selected line moves with, at the time shown; `None` where it moves with nothing that is there.
+pub(super) fn place_of_selected(workspace: &mut Workspace) -> Option<RigidPlace> {
+    let scene = workspace.model.view()?.scene.clone()?;
+    let lines = scene.lines.as_ref()?;
+    let line = &lines.list()[line_named(lines, workspace.scene.lines().selected()?)?];
+    let of = line.of.as_deref().filter(|of| !of.is_empty())?;
+    place_of(workspace, of)
+}
+
 /// Begins to erase the lines that are shown now.
 fn put_eraser(workspace: &mut Workspace, at: Vec2) {
     let lines = workspace.read().scene().and_then(|scene| scene.lines.clone());
     let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
-    let is_hidden = |index, line: &DrawnLine| workspace.scene.lines().is_hidden(&line_name(index, line));
-    let eraser = lines
-        .filter(|_| workspace.settings.look.lines)
-        .map(|lines| LineEraser::new(lines, is_hidden, view, at.as_dvec2()));
+    let eraser = lines.filter(|_| workspace.settings.look.lines).map(|lines| {
+        let named = lines.list().iter().enumerate();
+        let seen = named.filter(|(index, line)| !workspace.scene.lines().is_hidden(&line_name(*index, line)));
+        let seen: Vec<usize> = seen.map(|(index, _)| index).collect();
+        let placed = seen.into_iter().filter_map(|index| {
+            match lines.list()[index].of.as_deref().filter(|of| !of.is_empty()) {
+                Some(of) => Some((index, Some(place_of(workspace, of)?))),
+                None => Some((index, None)),
+            }
+        });
+        let placed: Vec<(usize, Option<RigidPlace>)> = placed.collect();
+        LineEraser::new(lines, &placed, view, at.as_dvec2())
+    });
     *workspace.scene.lines_mut().eraser_mut() = eraser;
     move_eraser(workspace, at);
 }
@@ -235,7 +309,7 @@ pub(in crate::panels) fn use_as_path(workspace: &mut Workspace) -> Option<Effect
     }
 }
 
-/// Lets the selected role follow the selected path from the playhead on. Of several roles or paths, those that were selected last.
+/// Lets the selected role, camera or other thing that moves follow the selected path from the playhead on. Of several, those that were selected last.
 pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
     let selected = workspace.scene.things().to_vec();
@@ -244,9 +318,11 @@ pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect>
             selected.iter().rev().filter_map(|id| base.plan.things().get(base.plan.thing_called(id)?));
         let things: Vec<&PlannedThing> = found.collect();
         let path = things.iter().find(|thing| thing.kind == "path");
-        let role = things.iter().find(|thing| matches!(thing.kind, "role" | "prop"));
-        let (Some(path), Some(role)) = (path, role) else {
-            return Err(GestureRefusal("Select a role and a path".to_owned()));
+        let moves = |thing: &&&PlannedThing| element("move").is_some_and(|row| row.who.contains(&thing.kind));
+        let (Some(path), Some(role)) = (path, things.iter().find(moves)) else {
+            return Err(GestureRefusal(
+                "Select a path, and a role or a camera that is to follow it".to_owned(),
+            ));
         };
         let takes = role.model.as_ref().map_or(&[][..], |model| model.takes());
         let name = |take: &StageTake| take.name().to_owned();

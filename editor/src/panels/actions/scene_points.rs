@@ -2,10 +2,11 @@
 
 use super::line_edit::reshaped_edit;
 use super::scene_gizmo::gesture_base;
+use super::scene_lines::place_of;
 use super::scene_text::change_text;
 use crate::control::path_point::{PathPoint, PathPointOwner};
 use crate::panels::request::Effect;
-use crate::panels::scene::ScriptChange;
+use crate::panels::scene::{ScriptChange, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, move_path_point};
@@ -69,7 +70,21 @@ fn line_edit(workspace: &mut Workspace, line: &str, point: &PathPoint) -> Result
             scene
         }
     };
-    reshaped_edit(&scene, ScriptLabel::MovePoint, line, |line| moved(line, point)).map_err(GestureRefusal)
+    let of = scene.lines.as_ref().and_then(|lines| {
+        let own = &lines.list()[line_named(lines, line)?];
+        own.of.clone().filter(|of| !of.is_empty())
+    });
+    // A line that moves with a thing has its points relative to that.
+    let place = match of {
+        None => point.place,
+        Some(of) => {
+            let of = place_of(workspace, &of).ok_or_else(|| GestureRefusal(format!("There is no {of}")))?;
+            let own = of.inverse();
+            own.rotation * point.place + own.position
+        }
+    };
+    let point = PathPoint { place, ..point.clone() };
+    reshaped_edit(&scene, ScriptLabel::MovePoint, line, |line| moved(line, &point)).map_err(GestureRefusal)
 }
 
 fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, GestureRefusal> {

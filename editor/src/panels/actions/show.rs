@@ -1,7 +1,9 @@
 //! The start of a frame, and a newer view of the document.
 
 use super::reopened::BeforeReload;
-use super::{drags, framing, keys, layers, left_scene, playback, scene, scene_camera, scope, tools, undo};
+use super::{
+    drags, framing, keys, layers, left_scene, playback, scene, scene_camera, scene_lines, scope, tools, undo,
+};
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
 use crate::panels::difference_text::ShownScale;
@@ -43,7 +45,8 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     tools::sync_gizmo(workspace);
     tools::update_path(workspace);
     let scene = workspace.model.view().and_then(|view| view.scene.clone());
-    workspace.scene.update_lines(scene.as_deref(), workspace.dragging.is_open());
+    let of = scene_lines::place_of_selected(workspace);
+    workspace.scene.update_lines(scene.as_deref(), workspace.dragging.is_open(), of);
     tools::show_points(workspace);
 }
 
@@ -56,6 +59,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         let before = BeforeReload::of(workspace, &view);
         let left = left_scene::leave(workspace).or(workspace.left_scene.take());
         workspace.stage.reset();
+        workspace.probe.clear();
         workspace.tools.controls_mut().line_mut().choose(None);
         workspace.camera.set_through(ThroughCamera::Free);
         workspace.model.replace(view);

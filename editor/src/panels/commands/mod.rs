@@ -92,6 +92,8 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Drag the values beside the curves", "Pan the values; wheel: zoom; double-click: fit"),
     ("Drag a key of the motion path", "Move the bone at that key"),
     ("Drag a point of a selected path or line", "Move it at its height; Shift: up and down, Ctrl: snap"),
+    ("Drop a model file onto a scene", "On a bone, the bone holds it; elsewhere it stands there"),
+    ("Click after \"Pick the focus\"", "Focus on a bone; Shift: on its distance"),
     ("Drag while drawing lines", "Draw freehand; Shift: straight, Ctrl: erase"),
     ("Click while drawing lines", "Add a corner; Enter ends the line, Backspace takes a corner back"),
     ("Drag a number", "Change it; Shift for precision, Ctrl to snap"),

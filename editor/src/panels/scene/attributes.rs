@@ -7,7 +7,8 @@ use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
 use super::thing_icon::icon;
-use super::{SceneBase, SceneRequest, ScriptChange};
+use super::{LineRequest, SceneBase, SceneRequest, ScriptChange, line_named};
+use crate::panels::icons::Icon;
 use dragonfly_anim::stage::gesture::{GestureRefusal, in_this_text};
 use dragonfly_anim::stage::script::{ElementOrigin, ScriptElement, StageScript};
 use dragonfly_anim::stage::splice::{remove_attribute, rename, set_attribute};
@@ -16,11 +17,11 @@ use dragonfly_document::edit::ScriptLabel;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 use std::sync::Arc;
 
-/// The fields of the selected action or thing.
+/// The fields of the selected action or thing, and of the selected line.
 #[derive(Debug, Default)]
 pub struct SceneAttributes {
-    /// The field that is being typed in: the element, the attribute, and the text.
-    typed: Option<(usize, &'static str, String)>,
+    /// The field that is being typed in: its owner, the attribute, and the text.
+    typed: Option<(FieldOwner, &'static str, String)>,
 }
 
 impl Panel for SceneAttributes {
@@ -42,30 +43,79 @@ impl Panel for SceneAttributes {
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let script = context.scene().and_then(|scene| scene.script.as_deref());
-        let Some((script, element)) = script.and_then(|script| Some((script, selected(script, context)?)))
-        else {
+        let element = script.and_then(|script| Some((script, selected(script, context)?)));
+        let line = selected_line(context);
+        if element.is_none() && line.is_none() {
             return widgets::empty(
                 ui,
                 "Nothing is selected",
-                "Click a thing of the scene, or an action in its timeline",
+                "Click a thing of the scene, an action in its timeline, or a line in the list",
             );
-        };
-        let own = &script.tree().elements()[element];
-        let is_locked = [own.value("who"), own.value("id")]
-            .into_iter()
-            .flatten()
-            .any(|id| context.scene_editing.is_locked(id))
-            || !own.is_own();
-        heading(ui, own, script);
-        ui.add_enabled_ui(!is_locked, |ui| {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                for row in own.row.rows() {
-                    self.field(ui, (element, own), row, context, requests);
+        }
+        if let Some((script, element)) = element {
+            heading(ui, &script.tree().elements()[element], script);
+        }
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            if let Some((script, element)) = element {
+                let own = &script.tree().elements()[element];
+                let is_locked = [own.value("who"), own.value("id")]
+                    .into_iter()
+                    .flatten()
+                    .any(|id| context.scene_editing.is_locked(id))
+                    || !own.is_own();
+                ui.add_enabled_ui(!is_locked, |ui| {
+                    for row in own.row.rows() {
+                        let field = AttributeField { owner: FieldOwner::Element(element), row, element: own };
+                        self.field(ui, &field, context, requests);
+                    }
+                });
+                ui.add_space(2.0 * GRID);
+            }
+            if let Some((name, line)) = line {
+                line_heading(ui, &name, line);
+                // The points are dragged in the viewport.
+                for row in line.row.rows().filter(|row| row.name != "points") {
+                    let field = AttributeField { owner: FieldOwner::Line(name.clone()), row, element: line };
+                    self.field(ui, &field, context, requests);
                 }
                 ui.add_space(2.0 * GRID);
-            });
+            }
         });
     }
+}
+
+/// The owner of an attribute.
+#[derive(Clone, Debug, PartialEq)]
+enum FieldOwner {
+    /// An element of the script, by its position.
+    Element(usize),
+    /// A line of the project, by its name in the editor.
+    Line(Box<str>),
+}
+
+/// An attribute as a field.
+struct AttributeField<'a> {
+    owner: FieldOwner,
+    row: &'static AttributeRow,
+    element: &'a ScriptElement,
+}
+
+impl AttributeField<'_> {
+    /// Returns the request that gives the attribute a value; an empty one removes it.
+    fn set(&self, context: &PanelContext<'_>, value: &str) -> SceneRequest {
+        match &self.owner {
+            FieldOwner::Element(element) => set(context, *element, self.row, value),
+            FieldOwner::Line(line) => set_of_line(context, line, self.row, value),
+        }
+    }
+}
+
+/// Returns the name and the element of the selected line.
+fn selected_line<'a>(context: &PanelContext<'a>) -> Option<(Box<str>, &'a ScriptElement)> {
+    let lines = context.scene()?.lines.as_deref()?;
+    let name = context.scene_editing.lines().selected()?;
+    let element = lines.list()[line_named(lines, name)?].element;
+    Some((name.into(), &lines.tree().elements()[element]))
 }
 
 /// Returns the element of the selected action, or of the active thing.
@@ -106,66 +156,96 @@ impl SceneAttributes {
     fn field(
         &mut self,
         ui: &mut Ui,
-        (index, element): (usize, &ScriptElement),
-        row: &'static AttributeRow,
+        field: &AttributeField<'_>,
         context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
-        let theme = Theme::of(ui);
-        let written = element.attribute(row.name).map(|attribute| &*attribute.value);
+        let (theme, row) = (Theme::of(ui), field.row);
+        let written = field.element.attribute(row.name).map(|attribute| &*attribute.value);
         ui.horizontal(|ui| {
             ui.add_space(2.0 * GRID);
             let color = if written.is_some() { theme.text } else { theme.weak };
             let (rect, label) = ui.allocate_exact_size(egui::vec2(82.0, 24.0), egui::Sense::hover());
             widgets::text_in(ui, rect, row.name, &egui::TextStyle::Body, color);
             label.on_hover_text(format!("{}\n{}", row.help, row.value.expected));
-            let is_typed = self.typed.as_ref().is_some_and(|(of, name, _)| (*of, *name) == (index, row.name));
+            let is_typed =
+                self.typed.as_ref().is_some_and(|(of, name, _)| (of, *name) == (&field.owner, row.name));
             if !is_typed && !row.value.choices.is_empty() {
-                return choices(ui, element, row, index, context, requests);
+                return choices(ui, field, context, requests);
             }
             let mut text = match &self.typed {
                 Some((_, _, text)) if is_typed => text.clone(),
                 Some(_) | None => written.unwrap_or_default().to_owned(),
             };
             let width = (ui.available_width() - 2.0 * GRID).max(24.0);
-            let field = TextEdit::singleline(&mut text)
+            let edit = TextEdit::singleline(&mut text)
                 .hint_text(row.default)
                 .align(egui::Align2::LEFT_CENTER)
                 .desired_width(width);
-            let response = ui.add(field).accessible_name(row.name);
+            let name = match &field.owner {
+                FieldOwner::Element(_) => row.name.to_owned(),
+                FieldOwner::Line(_) => format!("line {}", row.name),
+            };
+            let response = ui.add(edit).accessible_name(name);
             let escape = ui.input(|input| input.key_pressed(Key::Escape));
             if response.lost_focus() && is_typed {
                 self.typed = None;
                 if !escape && text != written.unwrap_or_default() {
-                    requests.push(Request::Scene(set(context, index, row, &text)));
+                    requests.push(Request::Scene(field.set(context, &text)));
                 }
             } else if response.has_focus() {
-                self.typed = Some((index, row.name, text));
+                self.typed = Some((field.owner.clone(), row.name, text));
             }
         });
     }
 }
 
 /// Draws the choice between the words that an attribute may have.
-fn choices(
-    ui: &mut Ui,
-    element: &ScriptElement,
-    row: &'static AttributeRow,
-    index: usize,
-    context: &PanelContext<'_>,
-    requests: &mut Vec<Request>,
-) {
-    let now = element.value(row.name).unwrap_or_default();
+fn choices(ui: &mut Ui, field: &AttributeField<'_>, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let row = field.row;
+    let now = field.element.value(row.name).unwrap_or_default();
     let button = widgets::choice_button(ui, if now.is_empty() { "—" } else { now });
     button.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::ComboBox, true, row.name));
     egui::Popup::menu(&button).show(|ui| {
         for choice in row.value.choices {
             if ui.selectable_label(*choice == now, *choice).clicked() {
-                requests.push(Request::Scene(set(context, index, row, choice)));
+                requests.push(Request::Scene(field.set(context, choice)));
                 ui.close();
             }
         }
     });
+}
+
+/// Draws the name of a line above its fields.
+fn line_heading(ui: &mut Ui, name: &str, line: &ScriptElement) {
+    let theme = Theme::of(ui);
+    ui.add_space(GRID);
+    ui.horizontal(|ui| {
+        ui.add_space(2.0 * GRID);
+        let (mark, _) = ui.allocate_exact_size(egui::vec2(16.0, 16.0), egui::Sense::hover());
+        Icon::Pencil.paint(ui.painter(), mark, theme.accent);
+        ui.label(RichText::new(format!("line {name}")).color(theme.text));
+    });
+    ui.horizontal(|ui| {
+        ui.add_space(2.0 * GRID);
+        ui.add(egui::Label::new(RichText::new(line.row.help).small().color(theme.weak)).wrap());
+    });
+    ui.add_space(GRID);
+}
+
+/// Returns the request that gives an attribute of a line a value; an empty one removes it.
+fn set_of_line(
+    context: &PanelContext<'_>,
+    line: &str,
+    row: &'static AttributeRow,
+    value: &str,
+) -> SceneRequest {
+    let rate = context.scene_rate().unwrap_or_default();
+    if !value.is_empty() && !row.value.accepts(value, rate) {
+        return SceneRequest::Refused(format!("{}=\"{value}\" is not {}", row.name, row.value.expected));
+    }
+    let value = (!value.is_empty()).then(|| value.to_owned());
+    SceneRequest::Line(LineRequest::Set(line.into(), row.name, value))
 }
 
 /// Returns the request that gives an attribute of an element a value; an empty one removes it.

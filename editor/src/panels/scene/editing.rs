@@ -7,9 +7,9 @@ use super::sounds::SceneSounds;
 use super::thing_selection::ThingSelection;
 use super::thumbnails::SceneThumbnails;
 use crate::panels::keys::TimeWindow;
-use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::script::StageScript;
+use dragonfly_anim::stage::{RigidPlace, StagePlan};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{Edit, EditScript, TextRef};
 use dragonfly_document::history::Gesture;
@@ -174,9 +174,15 @@ impl SceneEditing {
     }
 
     /// Adapts what is drawn of lines and paths to the scene and the selection. While something is dragged (`is_dragging`), more changes are likely to come.
-    pub(in crate::panels) fn update_lines(&mut self, scene: Option<&SceneView>, is_dragging: bool) {
+    /// `of` is the place of what the selected line moves with.
+    pub(in crate::panels) fn update_lines(
+        &mut self,
+        scene: Option<&SceneView>,
+        is_dragging: bool,
+        of: Option<RigidPlace>,
+    ) {
         let (selected, hidden, locked) = (self.things.list(), &self.hidden, &self.locked);
-        self.lines.update(scene, MarkedThings { selected, hidden, locked }, is_dragging);
+        self.lines.update(scene, MarkedThings { selected, hidden, locked }, is_dragging, of);
     }
 
     /// Returns whether a gesture is a word that someone types.

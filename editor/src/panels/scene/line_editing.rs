@@ -4,8 +4,8 @@ use super::line_eraser::LineEraser;
 use super::line_look::{PathDrawing, line_looks, path_drawings};
 use super::path_handles::path_handles;
 use crate::control::path_point::PathPoint;
-use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
+use dragonfly_anim::stage::{RigidPlace, StagePlan};
 use dragonfly_document::SceneView;
 use dragonfly_picture::LineLook;
 use std::collections::BTreeSet;
@@ -21,6 +21,8 @@ pub struct LineEditing {
     looks: Arc<[LineLook]>,
     /// Points that can be dragged.
     points: Arc<[PathPoint]>,
+    /// The place of what the selected line moves with, as the points have it.
+    of: Option<RigidPlace>,
     /// The paths among the looks, and what they were made from.
     paths: (Option<PathsBase>, Vec<PathDrawing>),
     /// The lines among the looks, and what they were made from.
@@ -146,12 +148,20 @@ impl LineEditing {
 
     /// Adapts what is drawn to the scene and to the things that are selected, hidden and locked. Does nothing if nothing changed; a newer plan
     /// leaves the lines of a project as they are. While something is dragged or typed, so do paths that are most likely the same; after it, all are exact.
-    pub(super) fn update(&mut self, scene: Option<&SceneView>, things: MarkedThings<'_>, is_dragging: bool) {
+    /// `of` is the place of what the selected line moves with.
+    pub(super) fn update(
+        &mut self,
+        scene: Option<&SceneView>,
+        things: MarkedThings<'_>,
+        is_dragging: bool,
+        of: Option<RigidPlace>,
+    ) {
         let same_paths = self.paths.0.as_ref().is_some_and(|base| base.is_same(scene, things, is_dragging));
         let same_lines = self.lines.0.as_ref().is_some_and(|base| base.is_same(scene, self));
-        if same_paths && same_lines {
+        if same_paths && same_lines && self.of == of {
             return;
         }
+        self.of = of;
         let script = scene.and_then(|scene| scene.script.as_deref());
         if !same_paths {
             let plan = scene.and_then(|scene| scene.plan.clone());
@@ -174,7 +184,10 @@ impl LineEditing {
         let editable = |id: &&str| !things.hidden.contains(*id) && !things.locked.contains(*id);
         let paths = things.selected.iter().map(|id| &**id).filter(editable);
         let line = self.selected().filter(|line| !self.is_hidden(line));
-        self.points = path_handles(script, scene.and_then(|scene| scene.lines.as_deref()), paths, line);
+        self.points = path_handles(script, scene.and_then(|scene| scene.lines.as_deref()), paths, line, of);
+        if same_paths && same_lines {
+            return;
+        }
         let paths = self.paths.1.iter().flat_map(PathDrawing::looks);
         self.looks = paths.chain(&self.lines.1).cloned().collect();
     }

@@ -1,9 +1,10 @@
 //! The eraser of drawn lines: what it has touched since the button was pressed.
 
+use dragonfly_anim::stage::RigidPlace;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_picture::gizmo::GizmoView;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 /// Distance from the pointer within which a line is erased, points.
@@ -24,6 +25,8 @@ pub struct LineEraser {
 #[derive(Clone, Debug)]
 struct ShownLine {
     index: usize,
+    /// The place of what it moves with.
+    of: Option<RigidPlace>,
     /// Its points; `None` for those that are not in front of the camera.
     points: Vec<Option<DVec2>>,
     /// The box around them; `None` where none is in front of the camera.
@@ -31,17 +34,17 @@ struct ShownLine {
 }
 
 impl LineEraser {
-    /// Begins at a position. Lines that move with a thing are elsewhere and stay, and so do the hidden ones.
+    /// Begins at a position, with the lines that are seen, by their positions in the file: each with the place of what it moves with.
     pub(in crate::panels) fn new(
         lines: Arc<DrawnLines>,
-        is_hidden: impl Fn(usize, &DrawnLine) -> bool,
+        seen: &[(usize, Option<RigidPlace>)],
         view: GizmoView,
         at: DVec2,
     ) -> Self {
-        let all = lines.list().iter().enumerate();
-        let fixed = all.filter(|(_, line)| line.of.as_deref().is_none_or(str::is_empty));
-        let seen = fixed.filter(|(index, line)| !is_hidden(*index, line));
-        let left = seen.map(|(index, line)| ShownLine::new(index, line, &view)).collect();
+        let shown = |&(index, of): &(usize, Option<RigidPlace>)| {
+            Some(ShownLine::new((index, of), lines.list().get(index)?, &view))
+        };
+        let left = seen.iter().filter_map(shown).collect();
         Self { lines, view, at, left, hits: Vec::new() }
     }
 
@@ -50,7 +53,7 @@ impl LineEraser {
         if self.view != *view {
             self.view = *view;
             for line in &mut self.left {
-                *line = ShownLine::new(line.index, &self.lines.list()[line.index], view);
+                *line = ShownLine::new((line.index, line.of), &self.lines.list()[line.index], view);
             }
         }
         let way = [std::mem::replace(&mut self.at, at), at];
@@ -75,13 +78,14 @@ fn is_shown(line: &DrawnLine, time: StageTime) -> bool {
 }
 
 impl ShownLine {
-    fn new(index: usize, line: &DrawnLine, view: &GizmoView) -> Self {
+    fn new((index, of): (usize, Option<RigidPlace>), line: &DrawnLine, view: &GizmoView) -> Self {
+        let place = |point: DVec3| of.map_or(point, |of| of.rotation * point + of.position);
         let points: Vec<Option<DVec2>> =
-            line.samples().points().iter().map(|point| view.to_screen(*point)).collect();
+            line.samples().points().iter().map(|point| view.to_screen(place(*point))).collect();
         let around = points.iter().flatten().fold(None, |around: Option<[DVec2; 2]>, &at| {
             Some(around.map_or([at; 2], |[min, max]| [min.min(at), max.max(at)]))
         });
-        Self { index, points, around }
+        Self { index, of, points, around }
     }
 
     fn is_near(&self, way: [DVec2; 2]) -> bool {

@@ -2,7 +2,7 @@
 
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_anim::stage::script::{ScriptElement, ScriptTree, StageScript};
-use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, unique_id};
+use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, insert, unique_id};
 use dragonfly_anim::stage::time::{StageRate, StageTime, parse_time};
 use dragonfly_document::edit::ScriptLabel;
 
@@ -15,6 +15,8 @@ pub enum NewThing {
     RoleAt(String, String),
     /// An object: its model, relative to the folder of the script.
     Prop(String),
+    /// An object, and its place as scripts have it.
+    PropAt(String, String),
     /// A camera in front of the scene.
     Camera,
     /// A sun.
@@ -36,7 +38,7 @@ impl NewThing {
     pub fn label(&self) -> ScriptLabel {
         match self {
             Self::Role(_) | Self::RoleAt(..) => ScriptLabel::AddRole,
-            Self::Prop(_) => ScriptLabel::AddProp,
+            Self::Prop(_) | Self::PropAt(..) => ScriptLabel::AddProp,
             Self::Camera => ScriptLabel::AddCamera,
             Self::Light => ScriptLabel::AddLight,
             Self::Effect => ScriptLabel::AddEffect,
@@ -49,7 +51,9 @@ impl NewThing {
     /// Returns the text from which its id is made.
     fn id_base(&self) -> &str {
         match self {
-            Self::Role(model) | Self::RoleAt(model, _) | Self::Prop(model) => stem(model),
+            Self::Role(model) | Self::RoleAt(model, _) | Self::Prop(model) | Self::PropAt(model, _) => {
+                stem(model)
+            }
             Self::Camera => "camera",
             Self::Light => "light",
             Self::Effect => "effect",
@@ -70,6 +74,9 @@ impl NewThing {
             }
             Self::RoleAt(model, place) => {
                 named("role").with("model", model.as_str()).with("at", place.as_str())
+            }
+            Self::PropAt(model, place) => {
+                named("prop").with("model", model.as_str()).with("at", place.as_str())
             }
             Self::Prop(model) => named("prop").with("model", model.as_str()).with("at", "0 0 0"),
             Self::Camera => named("camera").with("at", "0 1.6 6").with("look", "0 1 0").with("lens", "35mm"),
@@ -109,6 +116,28 @@ pub fn with_new_thing(
         false => Some(inserted(script, ElementPlace::First(0), &NewElement::new("cast"))?),
     };
     let script = with_cast.as_ref().unwrap_or(script);
+    let (place, element, id) = placed(script, thing);
+    Ok((inserted(script, place, &element)?, id))
+}
+
+/// Returns the replacements that add a thing to a script with a cast, as [`with_new_thing`] does, and its id.
+///
+/// # Errors
+///
+/// The script has no cast.
+pub fn new_thing_splices(
+    script: &StageScript,
+    thing: &NewThing,
+) -> Result<(TextSplices, Box<str>), GestureRefusal> {
+    let (place, element, id) = placed(script, thing);
+    let is_there = script.tree().elements().iter().any(|element| is_own(element, "cast"));
+    let splices = insert(script.tree(), place, &element).filter(|_| is_there);
+    let refused = || GestureRefusal(format!("A {} cannot be added to this script", element.name()));
+    Ok((splices.ok_or_else(refused)?, id))
+}
+
+/// Returns the element of a new thing with its place and its id.
+fn placed(script: &StageScript, thing: &NewThing) -> (ElementPlace, NewElement, Box<str>) {
     let tree = script.tree();
     let id = unique_id(tree, thing.id_base());
     let element = thing.element(tree, &id);
@@ -116,7 +145,7 @@ pub fn with_new_thing(
     let cast = of_kind("cast").unwrap_or_default();
     let last = tree.elements().iter().rposition(|element| element.parent == Some(cast));
     let place = of_kind(element.name()).or(last).map_or(ElementPlace::First(cast), ElementPlace::After);
-    Ok((inserted(script, place, &element)?, id.into()))
+    (place, element, id.into())
 }
 
 /// Returns the script with a sound of a file from `at` on, at its end; the name of the file is relative to the folder of the script.
@@ -152,7 +181,7 @@ fn inserted(
 }
 
 /// Returns a time as it is written: seconds where three decimals are enough, else frames, else whole milliseconds.
-fn begin_text(at: StageTime, rate: StageRate) -> String {
+pub fn begin_text(at: StageTime, rate: StageRate) -> String {
     let (seconds, thousandths) =
         (|thousandths: f64| (thousandths / 1000.0).to_string(), at.seconds() * 1000.0);
     let texts = [seconds(thousandths.round()), format!("{}f", rate.nearest_frame(at))];

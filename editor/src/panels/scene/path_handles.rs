@@ -2,21 +2,24 @@
 
 use super::line_editing::{line_name, line_named};
 use crate::control::path_point::{PathPoint, PathPointOwner};
+use dragonfly_anim::stage::RigidPlace;
 use dragonfly_anim::stage::gesture::written_points;
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
 use dragonfly_anim::stage::script::StageScript;
+use glam::DVec3;
 use std::sync::Arc;
 
 /// Largest number of points that are shown.
 const MOST: usize = 2_000;
 
-/// Returns the points of paths of the cast with these ids, of the lines that such paths follow, and of the line called `line`. Lines that move with a thing have
-/// none.
+/// Returns the points of paths of the cast with these ids, of the lines that such paths follow, and of the line called `line`; `of` is the place of what that
+/// moves with.
 pub(super) fn path_handles<'a>(
     script: Option<&StageScript>,
     lines: Option<&DrawnLines>,
     paths: impl Iterator<Item = &'a str>,
     line: Option<&str>,
+    of: Option<RigidPlace>,
 ) -> Arc<[PathPoint]> {
     let mut found = Vec::new();
     let mut shown: Vec<usize> =
@@ -42,9 +45,12 @@ pub(super) fn path_handles<'a>(
         shown.extend(of_path.filter(|at| !shown.contains(at)));
     }
     for (at, lines) in shown.into_iter().filter_map(|at| Some((at, lines?))) {
-        let line = &lines.list()[at];
-        if line.of.as_deref().is_none_or(str::is_empty) {
-            found.extend(line_points(&line_name(at, line), line));
+        let own = &lines.list()[at];
+        let name = line_name(at, own);
+        if own.of.as_deref().is_none_or(str::is_empty) {
+            found.extend(line_points(&name, own, None));
+        } else if line == Some(&*name) && of.is_some() {
+            found.extend(line_points(&name, own, of));
         }
     }
     found.truncate(MOST);
@@ -52,10 +58,11 @@ pub(super) fn path_handles<'a>(
 }
 
 /// Returns the control points of a line. Those that give a curve its direction come last, so that they are in front where they cover others.
-fn line_points(name: &str, line: &DrawnLine) -> Vec<PathPoint> {
+fn line_points(name: &str, line: &DrawnLine, of: Option<RigidPlace>) -> Vec<PathPoint> {
+    let place = |point: DVec3| of.map_or(point, |of| of.rotation * point + of.position);
     let owner = PathPointOwner::Line(name.into());
     let point = |index: usize| {
-        let of = match index % 3 {
+        let arm = match index % 3 {
             0 => None,
             1 => Some(index - 1),
             _ => Some(index + 1),
@@ -63,8 +70,8 @@ fn line_points(name: &str, line: &DrawnLine) -> Vec<PathPoint> {
         PathPoint {
             owner: owner.clone(),
             index,
-            place: line.points[index],
-            arm: of.and_then(|of| line.points.get(of).copied()),
+            place: place(line.points[index]),
+            arm: arm.and_then(|arm| line.points.get(arm).copied()).map(place),
         }
     };
     let (on_line, arms): (Vec<PathPoint>, Vec<PathPoint>) =

@@ -45,6 +45,10 @@ pub struct SceneViewport {
     camera_drag: Option<Gesture>,
     /// When the wheel or a panel moved the camera last; `None` while the viewport is dragged.
     turned: Option<Instant>,
+    /// The camera whose focus the next click sets.
+    focused: Option<Box<str>>,
+    /// The bone or thing on which the line in progress began, by its name in scripts.
+    pressed_on: Option<String>,
 }
 
 /// The things of a plan at one time.
@@ -125,6 +129,26 @@ impl SceneViewport {
     pub(in crate::panels) fn is_new_place(&mut self, place: DVec3) -> bool {
         let place = (place * PER_METER).round();
         self.point.replace(place) != Some(place)
+    }
+
+    /// Returns the camera whose focus the next click sets.
+    pub fn focused_camera(&self) -> Option<&Box<str>> {
+        self.focused.as_ref()
+    }
+
+    /// Lets the next click set the focus of a camera, or select as usual.
+    pub(in crate::panels) fn focus(&mut self, camera: Option<Box<str>>) {
+        self.focused = camera;
+    }
+
+    /// Returns the bone or thing on which the line in progress began, by its name in scripts.
+    pub(in crate::panels) fn pressed_on(&self) -> Option<&str> {
+        self.pressed_on.as_deref()
+    }
+
+    /// Notes the bone or thing on which a line begins.
+    pub(in crate::panels) fn press_on(&mut self, name: Option<String>) {
+        self.pressed_on = name;
     }
 
     /// Returns the camera of the shot at the time computed last, as a position in the cast.

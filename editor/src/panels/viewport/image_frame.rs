@@ -1,8 +1,12 @@
-//! The image of the camera through which the viewport looks: its edges, thirds and safe areas.
+//! The image of the camera through which the viewport looks: its titles, edges, thirds and safe areas.
 
 use crate::panels::context::PanelContext;
-use dragonfly_picture::ThroughCamera;
-use egui::{Color32, Rect, Stroke, StrokeKind, Ui, vec2};
+use crate::panels::style;
+use dragonfly_anim::stage::ShownTitle;
+use dragonfly_picture::{ThroughCamera, TitleLook};
+use egui::accesskit::Role;
+use egui::{Color32, FontId, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use std::sync::Arc;
 
 /// Parts of the image in which everything that happens, and every title, is safe from being cut off.
 const SAFE: [f32; 2] = [0.93, 0.9];
@@ -30,6 +34,7 @@ pub(super) fn frame(ui: &Ui, rect: Rect, context: &PanelContext<'_>) {
             painter.rect_filled(part, 0.0, outside);
         }
     }
+    titles(ui, image, context);
     let edge = Stroke::new(1.0, Color32::from_white_alpha(150));
     painter.rect_stroke(image, 0.0, edge, StrokeKind::Outside);
     if !context.settings.look.image_guides {
@@ -43,6 +48,36 @@ pub(super) fn frame(ui: &Ui, rect: Rect, context: &PanelContext<'_>) {
     for part in SAFE {
         let safe = Rect::from_center_size(image.center(), image.size() * part);
         painter.rect_stroke(safe, 2.0, line, StrokeKind::Inside);
+    }
+}
+
+/// Draws the titles at the time shown into an image, as movies have them.
+fn titles(ui: &Ui, image: Rect, context: &PanelContext<'_>) {
+    let Some(plan) = context.scene().and_then(|scene| scene.plan.as_ref()) else { return };
+    let mut shown = Vec::new();
+    plan.shown_titles(context.scene_time(), &mut shown);
+    let look = TitleLook::of(image.height());
+    // Letters outside of the image are cut off.
+    let painter = ui.painter().with_clip_rect(image);
+    for ShownTitle { title: index, weight } in shown {
+        let Some(title) = plan.titles().get(index) else { continue };
+        let font = FontId::new(look.size, style::title_font());
+        let galley = painter.layout_no_wrap(title.text.to_string(), font, Color32::WHITE);
+        let middle = image.min + vec2(title.at[0], title.at[1]) * image.size();
+        let corner = middle - galley.size() / 2.0;
+        let faded = |color: Color32, opacity: f32| color.gamma_multiply(opacity.clamp(0.0, 1.0));
+        let shadow = faded(Color32::BLACK, look.shadow_opacity * weight);
+        let place = Rect::from_min_size(corner, galley.size());
+        painter.galley_with_override_text_color(
+            corner + vec2(look.shadow, look.shadow),
+            Arc::clone(&galley),
+            shadow,
+        );
+        painter.galley_with_override_text_color(corner, galley, faded(Color32::WHITE, weight));
+        let response =
+            ui.interact(place, ui.scope_id().with(("title", index, image.left() as i32)), Sense::hover());
+        let name = format!("Title: {}", title.text);
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     }
 }
 

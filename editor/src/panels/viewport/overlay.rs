@@ -27,7 +27,11 @@ pub(super) fn pointer(ui: &Ui, response: &Response, context: &PanelContext<'_>, 
     let picture = tools.picture();
     let icon = if tools.edits() || picture.moves_camera() {
         Some(CursorIcon::Grabbing)
-    } else if tools.line().use_of().is_some() || picture.armed().is_some() || picture.catching().is_some() {
+    } else if tools.line().use_of().is_some()
+        || context.stage.focused_camera().is_some()
+        || picture.armed().is_some()
+        || picture.catching().is_some()
+    {
         Some(CursorIcon::Crosshair)
     } else if response.hovered() && tools.over_handle() {
         Some(CursorIcon::Grab)

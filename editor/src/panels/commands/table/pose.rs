@@ -13,7 +13,7 @@ use dragonfly_document::edit::ResetTo;
 use std::path::Path;
 
 commands! {
-    AutoKey => When::Always, "Auto-key", [key(SHIFT, Key::I)], "Inserts keys for every changed pose; when off, changed poses are pending until they are keyed", |w| { pose::toggle_auto_key(w); None };
+    AutoKey => When::Always, "Auto-key", [key(SHIFT, Key::I)], "Inserts keys for every changed pose, and lets a thing of a scene that is moved after the start be elsewhere from the playhead on; when off, changed poses are pending until they are keyed, and the start of things moves", |w| { pose::toggle_auto_key(w); None };
     EditFrame => When::Always, "Edit this frame", [], "Edits of poses apply to the frame at the playhead", |w| { scope::set(w, EditScope::Frame); None };
     EditSelectedKeys => When::Always, "Edit selected keys", [], "Edits of poses offset all selected keys of the bones by the same amount, with falloff also those around them (additive, relative)", |w| { scope::set(w, EditScope::Keys); None };
     EditPlayRange => When::Always, "Edit play range", [], "Edits of poses offset all keys of the bones in the play range by the same amount; keys at its ends keep the motion outside (additive, relative)", |w| { scope::set(w, EditScope::Range); None };

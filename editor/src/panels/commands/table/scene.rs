@@ -1,7 +1,9 @@
 //! Scenes: things of the cast, actions of the timeline.
 
 use super::*;
-use crate::panels::actions::{scene, scene_clipboard, scene_clips, scene_ground, scene_lines, scene_text};
+use crate::panels::actions::{
+    scene, scene_attach, scene_clipboard, scene_clips, scene_focus, scene_ground, scene_lines, scene_text,
+};
 use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
 
@@ -17,11 +19,14 @@ commands! {
     AddPath => When::Scene, "Add path", [], "Adds a path that roles can follow", |w| scene_text::add(w, &NewThing::Path);
     AddMark => When::Scene, "Add mark", [], "Adds a place to which roles can go", |w| scene_text::add(w, &NewThing::Mark);
     LineAsPath => When::Scene, "Use line as path", [], "Adds a path along the selected line, which roles can follow", scene_lines::use_as_path;
-    WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking", scene_lines::walk_along;
+    WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking; cameras, props, lights and effects can follow it too", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected line of the project", scene_lines::delete;
     SceneRename => When::Thing, "Rename thing", [], "Renames the selected thing wherever the script names it", |w| { scene::rename(w); None };
     DropToGround => When::Thing, "Drop to the ground", [], "Moves the selected roles, props and marks up or down so that they stand on the ground", scene_ground::drop_selected;
     ToggleGroundSnap => When::Always, "Snap to the ground", [], "Keeps roles, props and marks on the ground while they are moved", |w| { scene_ground::toggle(w); None };
+    AttachHere => When::Thing, "Attach to the bone under the pointer", [key(NONE, Key::J)], "Attaches the selected things to the bone or thing under the pointer, or to the one selected last, from the playhead on; they stay where they are. A model file dropped on a bone sits in its place instead", scene_attach::attach;
+    DetachHere => When::Thing, "Detach", [key(ALT, Key::J)], "Detaches the selected things at the playhead; they stay where they are", scene_attach::detach;
+    PickFocus => When::Scene, "Pick the focus", [], "Lets the next click set the focus of the camera of the view, or of the selected one: a bone, or with Shift and elsewhere a distance", |w| { scene_focus::begin(w); None };
     CutHere => When::Scene, "Cut to the next camera here", [], "Inserts a shot of the next camera at the playhead", scene_clips::cut_to_next;
     CutToCamera => When::Thing, "Cut to this camera here", [], "Inserts a shot of the selected camera at the playhead", scene_clips::cut_to_selected;
     PreviousShot => When::Scene, "Go to previous shot", [], "Moves the playhead to the start of the shot before it", |w| { scene_clips::go_to_shot(w, false); None };

@@ -143,8 +143,13 @@ fn menu(
         }
         if kind == "camera" {
             item(ui, context, Id::CutToCamera, false, requests);
+            item(ui, context, Id::PickFocus, false, requests);
         }
-        if matches!(kind, "role" | "prop" | "path") {
+        if matches!(kind, "role" | "prop" | "camera" | "light" | "effect") {
+            item(ui, context, Id::AttachHere, false, requests);
+            item(ui, context, Id::DetachHere, false, requests);
+        }
+        if matches!(kind, "role" | "prop" | "camera" | "light" | "effect" | "path") {
             item(ui, context, Id::WalkAlong, false, requests);
         }
         for id in [Id::SceneRename, Id::SceneDuplicate, Id::SceneDelete] {
