@@ -1,19 +1,14 @@
 //! Gestures in a timeline: which lines of the text they change, and what the scene is like after them.
 
 use super::actors::{assets, at, bits, fox, fox_script, planned};
-use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, attach_thing, cut_to,
     delete_clip, duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed,
     trim_end, trim_start,
 };
-use dragonfly_anim::stage::lanes::SceneLanes;
-use dragonfly_anim::stage::script::{StageRepeat, StageScript};
-use dragonfly_anim::stage::splice::TextSplice;
-use dragonfly_anim::stage::time::{Decimal, StageTime};
-use dragonfly_anim::stage::{StageAssets, StagePlan};
-use dragonfly_kit::random::{Random, seed};
+use dragonfly_anim::stage::script::StageRepeat;
+use dragonfly_anim::stage::time::StageTime;
 use glam::DVec3;
 
 fn seconds(seconds: f64) -> StageTime {
@@ -337,80 +332,4 @@ fn a_thing_is_dragged_by_its_place_in_the_cast_or_by_the_last_place() {
         let place = planned(&new.unwrap(), &assets(&fox())).placement(0, seconds(1.0)).unwrap();
         assert!((place.facing.to_degrees() + 90.0).abs() < 1e-9, "{}", place.facing.to_degrees());
     }
-}
-
-/// Does a random gesture.
-fn random_gesture(
-    random: &mut Random,
-    scene: &GestureScene<'_>,
-) -> (&'static str, Result<String, GestureRefusal>) {
-    let action = 1 + random.below(scene.script.actions().len() - 1);
-    let time = seconds(random.below(200) as f64 / 24.0);
-    let followers = random.choice(&[Followers::Follow, Followers::Stay]);
-    let order = random.choice(&[SequenceOrder::Keep, SequenceOrder::Change]);
-    match random.below(12) {
-        0..=2 => ("move", move_clip(scene, action, time, order, followers)),
-        3 => ("start", trim_start(scene, action, time)),
-        4 => ("end", trim_end(scene, action, time, followers)),
-        5 => ("fade", set_fade(scene, action, random.choice(&[FadeEnd::In, FadeEnd::Out]), time)),
-        6 => ("speed", set_speed(scene, action, random.below(9) as f64 / 2.0 - 2.0)),
-        7 => ("repeat", set_repeat(scene, action, StageRepeat::Times(Decimal::parse("2.5").unwrap()))),
-        8 => ("delete", delete_clip(scene, action, followers)),
-        9 => ("duplicate", duplicate_clip(scene, action)),
-        10 => ("cut", cut_to(scene, random.choice(&["wide", "close"]), time)),
-        _ => ("add", add_clip(scene, random.choice(&["anna", "ben"]), "Survey", time)),
-    }
-}
-
-#[test]
-fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first_text() {
-    let first = seed(1);
-    println!("seed {first}");
-    let model = fox();
-    let assets: StageAssets = assets(&model);
-    let (mut done, mut refused, mut scripts) = (std::collections::BTreeMap::<&str, usize>::new(), 0, 0);
-    let mut at = first;
-    while scripts < 150 {
-        at += 1;
-        let mut random = Random::new(at);
-        let mut text = random_scripts::script(at);
-        for take in ["PickUp", "Slash", "Idle", "Fall"] {
-            text = text.replace(&format!("\"{take}\""), "\"Survey\"");
-        }
-        let original = text.clone();
-        let mut inverses: Vec<TextSplice> = Vec::new();
-        for _ in 0..12 {
-            let Ok(script) = StageScript::read(text.as_str()) else { break };
-            let Ok(plan) = StagePlan::new(&script, &assets) else { break };
-            let scene = GestureScene { script: &script, plan: &plan };
-            let lanes = SceneLanes::new(&script, &plan);
-            assert!(
-                lanes.list.iter().all(|lane| lane.bars.iter().all(|bar| bar.row < lane.rows)),
-                "seed {at}"
-            );
-            match random_gesture(&mut random, &scene) {
-                (name, Ok(new)) => {
-                    let script = StageScript::read(new.as_str())
-                        .unwrap_or_else(|errors| panic!("seed {at} {name}: {}\n{new}", errors[0]));
-                    if let Err(errors) = StagePlan::new(&script, &assets) {
-                        panic!("seed {at} {name}: {}\n{text}\n{new}", errors[0]);
-                    }
-                    inverses.extend(TextSplice::between(&new, &text));
-                    *done.entry(name).or_default() += 1;
-                    text = new;
-                }
-                (_, Err(GestureRefusal(reason))) => {
-                    assert!(!reason.is_empty() && !reason.ends_with('.'), "{reason}");
-                    refused += 1;
-                }
-            }
-        }
-        scripts += usize::from(!inverses.is_empty());
-        for inverse in inverses.iter().rev() {
-            text.replace_range(inverse.range.clone(), &inverse.text);
-        }
-        assert_eq!(text, original, "seed {at}");
-    }
-    println!("{done:?}, {refused} refused");
-    assert!(done.len() == 10 && done.values().all(|&count| count > 15), "{done:?}");
 }

@@ -22,6 +22,7 @@
 //! | [`move_to_lane`] | `who` and `begin`, and the place in the text |
 //! | [`copied_clips`], [`paste_clips`] | new elements, one for each that was copied |
 //! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`] | one new element |
+//! | [`add_new_action`], [`wait_after`] | one new element, by the table of such actions |
 //! | [`move_path_point`] | three numbers of `points` |
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
 //!
@@ -36,6 +37,7 @@ mod draft;
 mod insert;
 mod mixes;
 mod moving;
+mod new_action;
 mod other_lane;
 mod path_points;
 mod places;
@@ -49,6 +51,7 @@ pub use copying::{copied_clips, duplicate_clips, is_copied_clips, paste_clips};
 pub use draft::spliced_text;
 pub use insert::{add_clip, attach_thing, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
+pub use new_action::{add_new_action, wait_after};
 pub use other_lane::{move_clips_to_lane, move_to_lane};
 pub use path_points::{move_path_point, written_points};
 pub use places::{face_splices, face_thing, place_splices, place_thing};

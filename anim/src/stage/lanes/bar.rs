@@ -1,5 +1,6 @@
 //! A bar of the timeline: an action with its times and its name.
 
+use super::bar_clip::BarClip;
 use super::overlap::{Takeover, is_main};
 use crate::stage::StagePlan;
 use crate::stage::script::{ScriptElement, StageRepeat, StageScript};
@@ -41,6 +42,8 @@ pub struct SceneBar {
     pub takeover: Takeover,
     /// Whether it has no length of its own.
     pub is_passive: bool,
+    /// The part of a take that it plays; `None` for other actions, and while the model is missing.
+    pub clip: Option<BarClip>,
     /// Moments of its take.
     pub marks: Vec<BarMark>,
     /// Its row in the lane.
@@ -74,6 +77,7 @@ impl SceneBar {
             is_main: is_main(element),
             takeover,
             is_passive: own.passive,
+            clip: BarClip::of(script, plan, action),
             marks: marks(script, action, times.begin, times.once),
             row: 0,
         }
