@@ -7,7 +7,7 @@ use super::edit_scope_menu;
 use super::icons::Icon;
 use super::keys_menu;
 use super::request::Request;
-use super::scene::SceneRequest;
+use super::scene::{SceneRequest, add_action_menu};
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
 use super::theme::Theme;
@@ -49,7 +49,7 @@ pub fn show(
             });
         });
         if context.scene().is_some() {
-            ui.menu_button("Scene", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Scene], requests)));
+            ui.menu_button("Scene", |ui| scrolled(ui, |ui| scene(ui, context, requests)));
         }
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
@@ -64,6 +64,16 @@ pub fn show(
             }
         });
     });
+}
+
+/// Draws the menu of scenes.
+fn scene(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    if let Some(scene) = context.scene() {
+        let selected = context.scene_editing.things().last().map(|thing| &**thing);
+        add_action_menu(ui, context, scene, selected, requests);
+        ui.separator();
+    }
+    list(ui, context, &[Category::Scene], requests);
 }
 
 /// Draws a long menu, which scrolls in a window that is lower than it.

@@ -1,6 +1,7 @@
 //! Scripts, their schedules, and scenes at a time.
 
 mod actors;
+mod clips;
 mod errors;
 mod feet;
 mod followed_paths;
@@ -17,11 +18,13 @@ mod lines;
 mod live;
 mod many;
 mod missing;
+mod new_actions;
 mod oracle;
 mod paths;
 mod placing;
 mod projects;
 mod pure;
+mod random_gestures;
 mod random_scripts;
 mod scenes;
 mod schema;

@@ -112,7 +112,7 @@ pub fn follow_path(
 }
 
 /// Returns the kind of a thing of the cast.
-fn kind_of(scene: &GestureScene<'_>, id: &str) -> Option<&'static str> {
+pub(super) fn kind_of(scene: &GestureScene<'_>, id: &str) -> Option<&'static str> {
     let thing = scene.plan.thing_called(id)?;
     scene.plan.things().get(thing).map(|thing| thing.kind)
 }
@@ -140,7 +140,7 @@ pub(super) fn check_who(
 }
 
 /// Adds an action of a thing at `at`: at the end of its `seq` where its last clip is in one, otherwise in a `par`.
-fn add_action(
+pub(super) fn add_action(
     scene: &GestureScene<'_>,
     who: &str,
     mut action: NewElement,

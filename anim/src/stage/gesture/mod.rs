@@ -22,6 +22,7 @@
 //! | [`move_to_lane`] | `who` and `begin`, and the place in the text |
 //! | [`copied_clips`], [`paste_clips`] | new elements, one for each that was copied |
 //! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`], [`detach_splices`], [`key_place_splices`] | one new element |
+//! | [`add_new_action`], [`wait_after`] | one new element, by the table of such actions |
 //! | [`grip_splices`] | `offset` and `turn` of an `attach` |
 //! | [`move_path_point`], [`path_points_splices`] | numbers of `points` |
 //! | [`place_thing`], [`face_thing`] | `at` or `facing` of the cast, or of the last `place` |
@@ -39,6 +40,7 @@ mod holding;
 mod insert;
 mod mixes;
 mod moving;
+mod new_action;
 mod other_lane;
 mod path_points;
 mod place_keys;
@@ -55,6 +57,7 @@ pub use draft::spliced_text;
 pub use holding::{HeldGrip, attach_splices, attach_thing, detach_splices, grip_splices};
 pub use insert::{add_clip, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
+pub use new_action::{add_new_action, wait_after};
 pub use other_lane::{move_clips_to_lane, move_to_lane};
 pub use path_points::{move_path_point, path_points_splices, written_points};
 pub use place_keys::key_place_splices;

@@ -96,6 +96,11 @@ pub(super) fn fits_onto(
     element: &ScriptElement,
     onto: &str,
 ) -> Result<(), GestureRefusal> {
+    if element.row.name == "attach" && element.value("who") != Some(onto) {
+        return refused(
+            "An attachment stays with the thing that is held: attach the other one by its own menu",
+        );
+    }
     check_who(scene, onto, element.row.name, &format!("do <{}>", element.row.name))?;
     let model = scene.plan.thing_called(onto).and_then(|thing| scene.plan.things()[thing].model.as_ref());
     let Some(model) = model else { return Ok(()) };

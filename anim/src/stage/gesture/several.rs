@@ -100,7 +100,7 @@ pub fn delete_clips(
         let next = scene.script.next_sibling(action).filter(|next| !actions.contains(next));
         keeps_prev(scene.script, next)?;
         if followers == Followers::Stay && next.is_some() {
-            // Where the first of those begins that are deleted together.
+            // The first of those that are deleted together.
             let mut first = action;
             while let Some(before) =
                 scene.script.before_in_seq(first).filter(|before| actions.contains(before))

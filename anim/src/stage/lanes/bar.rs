@@ -1,5 +1,6 @@
 //! A bar of the timeline: an action with its times and its name.
 
+use super::bar_clip::BarClip;
 use super::overlap::{Takeover, is_main};
 use crate::stage::StagePlan;
 use crate::stage::script::{ScriptElement, StageRepeat, StageScript};
@@ -43,6 +44,8 @@ pub struct SceneBar {
     pub is_passive: bool,
     /// The included file that has the action, relative to the folder of the document: it cannot be changed here. `None`: the script itself.
     pub file: Option<Box<str>>,
+    /// The part of a take that it plays; `None` for other actions, and while the model is missing.
+    pub clip: Option<BarClip>,
     /// Moments of its take.
     pub marks: Vec<BarMark>,
     /// Its row in the lane.
@@ -77,6 +80,7 @@ impl SceneBar {
             takeover,
             is_passive: own.passive,
             file: script.tree().file_of(element).map(Into::into),
+            clip: BarClip::of(script, plan, action),
             marks: marks(script, action, times.begin, times.once),
             row: 0,
         }

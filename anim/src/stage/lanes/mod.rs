@@ -9,10 +9,12 @@
 //! ```
 
 mod bar;
+mod bar_clip;
 mod overlap;
 mod rows;
 
 pub use bar::{BarMark, SceneBar};
+pub use bar_clip::BarClip;
 pub use overlap::Takeover;
 pub(in crate::stage) use overlap::{is_same, overlaps};
 

@@ -26,7 +26,7 @@ pub(in crate::stage) struct ClipOverlap {
     pub(in crate::stage) action: usize,
     /// The end of the one before it.
     pub(in crate::stage) until: StageTime,
-    /// Whether it ends before the one before it does.
+    /// Whether it ends no later than the one before it does.
     is_inside: bool,
 }
 
@@ -77,7 +77,7 @@ pub(in crate::stage) fn overlaps(
         let name = element.value("who").unwrap_or_default();
         let last = before.get(&(name, poses)).copied();
         if let Some(until) = last.filter(|&last| last > own.begin + SAME) {
-            let is_inside = own.stop < until || own.stop <= own.begin + SAME;
+            let is_inside = own.stop <= until || own.stop <= own.begin + SAME;
             found.push(ClipOverlap { action, until: until.min(own.stop), is_inside });
         }
         before.insert((name, poses), own.stop);

@@ -60,7 +60,7 @@ impl StageScript {
     }
 
     /// Returns whether an action is in a `seq`.
-    pub(in crate::stage) fn is_in_seq(&self, action: usize) -> bool {
+    pub fn is_in_seq(&self, action: usize) -> bool {
         self.actions.get(action).and_then(|own| own.parent).is_some_and(|parent| self.is_seq(parent))
     }
 

@@ -5,6 +5,7 @@
 
 mod actions;
 mod cast;
+mod new_actions;
 mod project;
 mod property;
 mod reference;
@@ -13,6 +14,7 @@ mod schema;
 mod value;
 mod vocabulary;
 
+pub use new_actions::{NEW_ACTIONS, NewActionRow, NewActionTarget};
 pub use property::{PROPERTIES, PropertyRow, PropertyType, property};
 pub use reference::NameReference;
 pub use row::{AttributeRow, ElementGroup, ElementRow};

@@ -1,7 +1,7 @@
 //! New texts of a scene's script.
 
 use crate::panels::request::Effect;
-use crate::panels::scene::{NewThing, SceneBase, ScriptChange, with_new_sound, with_new_thing};
+use crate::panels::scene::{NewThing, SceneBase, ScriptChange, with_new_sound, with_new_thing, with_run};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
@@ -62,8 +62,9 @@ pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing], sounds: &[
         let mut script = Arc::clone(&base.script);
         for thing in things {
             let (next, id) = with_new_thing(&script, thing)?;
-            added.push(id);
+            let next = if *thing == NewThing::Effect { with_run(&next, &id, at)? } else { next };
             script = Arc::new(next);
+            added.push(id);
         }
         for sound in sounds {
             script = Arc::new(with_new_sound(&script, sound, at)?);

@@ -8,11 +8,13 @@
 //!
 //! The panels contain nothing of the scene: they draw the last script that worked, and a text of their own only while someone types.
 
+mod action_menu;
 mod action_selection;
 pub mod attributes;
 mod base;
 mod editing;
 mod follow;
+mod gesture_request;
 mod left_scene;
 mod line_editing;
 mod line_eraser;
@@ -32,14 +34,15 @@ mod thumbnails;
 pub mod timeline;
 mod viewport;
 
+pub(in crate::panels) use action_menu::submenu_of as add_action_menu;
 pub use base::SceneBase;
 pub use editing::SceneEditing;
 pub use left_scene::LeftScene;
 pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;
-pub use new_thing::{NewThing, begin_text, new_thing_splices, with_new_sound, with_new_thing};
+pub use new_thing::{NewThing, begin_text, new_thing_splices, with_new_sound, with_new_thing, with_run};
 pub use probe::SceneProbe;
-pub use request::{LineRequest, SceneRequest, ScriptChange};
+pub use request::{DraggedTake, LineRequest, SceneRequest, ScriptChange};
 pub use sounds::{SceneSound, SceneSounds};
 pub(in crate::panels) use template::NO_LINES;
 pub use template::{duel_text, free_name, project_texts};

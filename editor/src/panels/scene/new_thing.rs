@@ -165,6 +165,18 @@ pub fn with_new_sound(
     inserted(script, last.map_or(ElementPlace::First(0), ElementPlace::After), &sound)
 }
 
+/// Returns the script with an effect that is on from `at` on, to the end of the scene.
+///
+/// # Errors
+///
+/// The result would be no script.
+pub fn with_run(script: &StageScript, effect: &str, at: StageTime) -> Result<StageScript, GestureRefusal> {
+    let run = NewElement::new("run").with("who", effect);
+    let run = if at > StageTime::ZERO { run.with("begin", begin_text(at, script.rate())) } else { run };
+    let last = script.tree().elements().iter().rposition(|element| element.parent == Some(0));
+    inserted(script, last.map_or(ElementPlace::First(0), ElementPlace::After), &run)
+}
+
 /// Returns whether an element of this name is in the text of the script itself.
 fn is_own(element: &ScriptElement, name: &str) -> bool {
     element.row.name == name && element.is_own()

@@ -20,6 +20,13 @@ pub struct ScriptChange {
     pub gesture: Option<Gesture>,
 }
 
+/// A take that is dragged from the list to the timeline.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DraggedTake {
+    /// Its name.
+    pub take: Box<str>,
+}
+
 /// A request about a drawn line, by its name in the editor.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LineRequest {

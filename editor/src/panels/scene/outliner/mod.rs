@@ -3,6 +3,7 @@
 mod lines;
 mod rename;
 mod row;
+mod takes;
 
 use super::super::context::PanelContext;
 use super::super::menu::item;
@@ -23,6 +24,7 @@ use egui::{Align, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 use lines::LineRows;
 use rename::ThingName;
 use std::sync::Arc;
+use takes::TakeRows;
 
 /// The kinds of things with their headings, in the order in which they are listed.
 const KINDS: [(&str, &str); 7] = [
@@ -44,6 +46,7 @@ pub struct Outliner {
     query: String,
     name: ThingName,
     lines: LineRows,
+    takes: TakeRows,
     /// The thing from which Shift selects.
     from: Option<Box<str>>,
     listed: ListedThings,
@@ -104,6 +107,7 @@ impl Panel for Outliner {
             }
             self.listed = listed;
             self.lines.show(ui, context, requests);
+            self.takes.show(ui, context, scene, requests);
             ui.add_space(2.0 * GRID);
         });
     }

@@ -4,9 +4,10 @@ use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_document::SceneView;
+use egui::accesskit::Role;
 use egui::text::CCursor;
 use egui::text_edit::TextEditOutput;
-use egui::{Align, Align2, CornerRadius, FontId, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Align, Align2, CornerRadius, FontId, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 use std::ops::Range;
 
 use super::coloring::SIZE;
@@ -96,6 +97,8 @@ fn mark(ui: &Ui, sheet: &MarginSheet<'_>, error: &ScriptError, area: Rect) {
     ui.painter().circle_filled(dot, 3.5, theme.error);
     let place = Rect::from_center_size(dot, vec2(14.0, to - from));
     let response = ui.interact(place, ui.scope_id().with(("error", error.range.start, line)), Sense::hover());
+    let name = format!("Error in line {}", line + 1);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &name));
     response.on_hover_text(widgets::shortened(&error.text()));
     let corner = |at: usize| {
         let cursor = CCursor::new(characters_before(sheet.text, at));

@@ -5,7 +5,7 @@ use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
-use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed};
+use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed, wait_after};
 use dragonfly_anim::stage::script::StageRepeat;
 use dragonfly_anim::stage::table::element;
 use dragonfly_anim::stage::time::{Decimal, StageTime};
@@ -61,6 +61,11 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
                 requests,
                 |scene| set_repeat(scene, action, StageRepeat::Fill),
             );
+        });
+    }
+    if sheet.scene.script.as_ref().is_some_and(|script| script.is_in_seq(action)) {
+        gesture(ui, "Wait after it", ScriptLabel::AddAction, sheet, requests, |scene| {
+            wait_after(scene, action)
         });
     }
     ui.separator();

@@ -25,7 +25,7 @@ enum TimelineDrag {
 pub(super) struct BarDragging {
     drag: PanelDrag<SceneHit, TimelineDrag>,
     hovered: Option<SceneHit>,
-    /// Where the box ended in the last frame in which the pointer was known.
+    /// The corner of the box in the last frame in which the pointer was known.
     last: Option<Pos2>,
 }
 

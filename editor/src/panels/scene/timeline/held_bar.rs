@@ -34,13 +34,13 @@ pub(super) struct HeldBar {
     name: Box<str>,
     /// Whether something was sent.
     pub(super) is_sent: bool,
-    /// Where the edge was brought last.
+    /// The place to which the edge was brought last.
     asked: Option<AskedEdge>,
     /// Why it could not be brought there.
     refused: Option<GestureRefusal>,
 }
 
-/// Where an edge is brought.
+/// A place to which an edge is brought.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct AskedEdge {
     time: StageTime,

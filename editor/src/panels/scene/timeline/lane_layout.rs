@@ -2,6 +2,7 @@
 
 use crate::panels::keys::TimeScale;
 use dragonfly_anim::stage::lanes::{LaneSubject, SceneBar, SceneLane, SceneLanes};
+use dragonfly_anim::stage::time::StageTime;
 use egui::{Pos2, Rect, pos2};
 
 /// Height of the first row of a lane, and of each further one.
@@ -94,6 +95,20 @@ impl SceneLaneLayout {
         if bar.is_instant() {
             return Rect::from_min_max(pos2(from - INSTANT, y + 2.0), pos2(from + INSTANT, y + height - 2.0));
         }
+        Rect::from_min_max(pos2(from, y + 2.0), pos2(to.max(from + 3.0), y + height - 2.0))
+    }
+
+    /// Returns the rectangle of a bar in the first row of a lane, from its begin to its end.
+    pub(super) fn main_bar(
+        &self,
+        lane: usize,
+        [from, to]: [StageTime; 2],
+        top: f32,
+        scale: &TimeScale,
+    ) -> Rect {
+        let y = top + self.span(lane)[0];
+        let height = self.mains.get(lane).copied().unwrap_or(MAIN_ROW);
+        let [from, to] = [from, to].map(|time| scale.x_of(time.seconds() as f32));
         Rect::from_min_max(pos2(from, y + 2.0), pos2(to.max(from + 3.0), y + height - 2.0))
     }
 

@@ -8,7 +8,7 @@ use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
-use crate::panels::scene::SceneRequest;
+use crate::panels::scene::{SceneRequest, add_action_menu};
 use dragonfly_anim::stage::gesture::{add_clip, attach_thing, cut_to};
 use dragonfly_anim::stage::lanes::SceneLane;
 use dragonfly_document::edit::ScriptLabel;
@@ -71,6 +71,8 @@ fn lane_entries(ui: &mut Ui, lane: &SceneLane, sheet: &SceneSheet<'_>, requests:
             });
         });
     }
+    let who = (!lane.kind.is_empty()).then_some(&*lane.name);
+    add_action_menu(ui, sheet.context, sheet.scene, who, requests);
     if matches!(lane.kind, "role" | "prop" | "light" | "effect" | "camera") {
         submenu(ui, "Attach at the playhead to", |ui| {
             for other in

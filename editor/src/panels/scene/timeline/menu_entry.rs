@@ -2,7 +2,7 @@
 
 use super::sheet::SceneSheet;
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
+use crate::panels::scene::gesture_request::gesture_request;
 use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene};
 use dragonfly_document::edit::ScriptLabel;
 use egui::{Button, Ui};
@@ -16,17 +16,8 @@ pub(super) fn gesture(
     requests: &mut Vec<Request>,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) {
-    if !ui.add(Button::new(title).frame_when_inactive(false)).clicked() {
-        return;
+    if ui.add(Button::new(title).frame_when_inactive(false)).clicked() {
+        requests.push(gesture_request(sheet.context, sheet.scene, label, act));
+        ui.close();
     }
-    let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene));
-    let done = base.and_then(|base| {
-        let text = act(&base.scene())?;
-        Ok(ScriptChange { from: std::sync::Arc::clone(base.text()), text, label, gesture: None })
-    });
-    requests.push(Request::Scene(match done {
-        Ok(change) => SceneRequest::Text(change),
-        Err(refusal) => SceneRequest::Refused(refusal.to_string()),
-    }));
-    ui.close();
 }

@@ -11,6 +11,8 @@ mod paint;
 mod ruler;
 mod sheet;
 mod snap;
+mod take_drop;
+mod take_marks;
 mod thumbnail;
 mod waveform;
 
@@ -23,6 +25,7 @@ use super::super::{Panel, PanelPlace, transport, widgets};
 use super::SceneRequest;
 use crate::panels::panel::PanelSubject;
 use drag::BarDragging;
+use dragonfly_anim::stage::lanes::{SceneBar, SceneLanes};
 use dragonfly_document::SceneView;
 use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
@@ -31,6 +34,7 @@ use paint::BarContents;
 pub use paint::mixed_part;
 use sheet::SceneSheet;
 pub use snap::snapped_time;
+pub use take_marks::{EventMark, events_of};
 
 /// Width of the names of the lanes.
 const GUTTER: f32 = 150.0;
@@ -48,6 +52,8 @@ pub struct SceneTimeline {
     scrub: dope::Scrub,
     menu: lane_menu::SceneMenu,
     contents: BarContents,
+    /// The active action that was brought into sight last.
+    followed: Option<usize>,
 }
 
 impl Panel for SceneTimeline {
@@ -141,6 +147,9 @@ impl SceneTimeline {
                 scroll -= ui.input(|input| input.smooth_scroll_delta().y);
             }
         }
+        if let Some([top, bottom]) = self.newly_active(&lanes, &layout, window, context, &mut moved) {
+            scroll = scroll.max(bottom - canvas.height()).min(top);
+        }
         self.scroll = between(scroll, 0.0, (content - canvas.height()).max(0.0));
         dope::wheel(ui, &response, &scale, &mut moved);
         let sheet = SceneSheet {
@@ -159,6 +168,7 @@ impl SceneTimeline {
         paint::lanes(&painter, &sheet);
         paint::bars(&painter, &sheet, self.drag.hovered(), &mut self.contents);
         self.drag.update(ui, &response, &sheet, requests);
+        take_drop::update(ui, &painter, &sheet, requests);
         self.menu.show(&response, &self.drag, &sheet, requests);
         ruler::show(&mut self.scrub, ui, &painter, &sheet, &mut moved);
         paint::playhead(&painter, &sheet);
@@ -172,5 +182,29 @@ impl SceneTimeline {
             Request::Timeline(KeysRequest::Window(window)) => Request::Scene(SceneRequest::Window(window)),
             other => other,
         }));
+    }
+    /// Returns top and bottom of the lane of an action that has just become the active one, such as that under the cursor of the script. Asks for
+    /// another part of time where the action is not in the one that is shown.
+    fn newly_active(
+        &mut self,
+        lanes: &SceneLanes,
+        layout: &SceneLaneLayout,
+        window: TimeWindow,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) -> Option<[f32; 2]> {
+        let active = context.scene_editing.action();
+        if std::mem::replace(&mut self.followed, active) == active || self.drag.is_busy() {
+            return None;
+        }
+        let is_of = |bar: &SceneBar| Some(bar.action) == active;
+        let lane = lanes.list.iter().position(|lane| lane.bars.iter().any(is_of))?;
+        let bar = lanes.list[lane].bars.iter().find(|bar| is_of(bar))?;
+        let (begin, end) = (bar.begin.seconds(), bar.end.seconds());
+        if begin > window.start + window.length || end < window.start {
+            let start = begin - 0.1 * window.length;
+            requests.push(Request::Timeline(KeysRequest::Window(Some(TimeWindow { start, ..window }))));
+        }
+        Some(layout.span(lane))
     }
 }

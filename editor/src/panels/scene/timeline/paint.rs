@@ -2,6 +2,7 @@
 
 use super::lane_layout::{SceneHit, fade_handles};
 use super::sheet::SceneSheet;
+use super::take_marks::TakeMarks;
 use super::thumbnail::ShotTextures;
 use super::waveform::{SceneWaveforms, sound_of};
 use crate::panels::keys::TimeScale;
@@ -14,10 +15,11 @@ use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, 
 /// Most lines for repetitions that are drawn in a bar.
 const MOST_REPETITIONS: usize = 200;
 
-/// What is drawn in bars and kept for the next frame.
+/// Contents of bars that are kept for the next frame.
 #[derive(Debug, Default)]
 pub(super) struct BarContents {
     waveforms: SceneWaveforms,
+    marks: TakeMarks,
     shots: ShotTextures,
 }
 
@@ -144,6 +146,7 @@ fn draw_bar(
         }
     }
     painter.rect_stroke(rect, radius, edge, StrokeKind::Inside);
+    contents.marks.show(painter, sheet, bar, rect, color);
     for mark in &bar.marks {
         let x = sheet.scale.x_of(mark.time.seconds() as f32);
         let corners =
