@@ -88,7 +88,7 @@ fn a_model_dropped_beside_bones_stands_there_as_a_figure_or_an_object() {
     assert!(new.len() == 1 && new[0].starts_with("<role id=\"Fox\""), "{new:?}");
     window.state_mut().change(Change::Undo);
     window.run_steps(2);
-    // What the scene has not read is looked at first.
+    // A model that the scene has not read is read first.
     let effect = drop_at(&mut window, DVec3::new(0.0, 0.0, 1.5), "/scenes/table.glb");
     let Some(Effect::LookAtModels(unknown)) = effect else { panic!("{effect:?}") };
     assert_eq!(text(&window), FOXES);
@@ -184,7 +184,7 @@ fn the_gizmo_of_a_held_thing_changes_how_it_is_held() {
 }
 
 #[test]
-fn a_thing_on_its_way_to_a_hand_says_what_to_do() {
+fn a_drag_of_a_thing_that_still_moves_to_its_bone_is_refused_with_what_to_do() {
     let script = held().replace("offset=\"0.1 0 0\"", "fade-in=\"2\"");
     let mut window = scene(&script).window();
     window.state_mut().state.execute(Request::Seek(1.0));

@@ -7,7 +7,7 @@ use crate::panels::status::MessageSeverity;
 use dragonfly_document::{Cancel, Source, load_model};
 use dragonfly_runtime::{Address, Job, JobContext};
 
-/// What is known of the models now, or the reason why one cannot be added.
+/// The models with what is known of them now, or the reason why one cannot be added.
 pub(super) type LookedModels = Result<DroppedModels, String>;
 
 /// Starts to read the models.

@@ -11,7 +11,7 @@ use crate::stage::time::StageTime;
 use crate::stage::time_text::decimal_text;
 use glam::DVec3;
 
-/// Where a thing is relative to what holds it.
+/// The place of a thing relative to its holder.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HeldGrip {
     /// Meters.

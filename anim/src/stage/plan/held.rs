@@ -1,4 +1,4 @@
-//! What holds a thing at a time, for those who change it.
+//! Holders of things at a time, for gestures that change how they hold.
 
 use super::StagePlan;
 use super::evaluate::{deciding_hold, rigid_of};
@@ -6,7 +6,7 @@ use super::holds::{HoldKind, RigidPlace};
 use super::spot::StageSpot;
 use crate::stage::scene::StageScene;
 
-/// What decides where a thing is that its own motions do not move.
+/// The reason why a thing is elsewhere than its own motions move it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ThingHold {
     /// Something holds it.

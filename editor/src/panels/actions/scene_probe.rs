@@ -1,4 +1,4 @@
-//! What of a scene is at a position of the viewport.
+//! Finds the surface of a scene at a position of the viewport.
 
 use crate::panels::workspace::Workspace;
 use dragonfly_picture::camera::CameraRay;
