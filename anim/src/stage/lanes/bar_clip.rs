@@ -1,6 +1,6 @@
 //! The part of a take that a bar plays, and when moments of the take are in the scene.
 
-use super::SceneBar;
+use super::bar::SceneBar;
 use crate::stage::StagePlan;
 use crate::stage::script::StageScript;
 use crate::stage::time::{Decimal, StageTime};

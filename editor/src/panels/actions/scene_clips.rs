@@ -3,8 +3,8 @@
 use super::playback;
 use super::scene_text::gesture;
 use crate::panels::request::Effect;
-use crate::panels::scene::SceneBase;
 use crate::panels::scene::shots::shots_of;
+use crate::panels::scene::{SceneBase, move_label};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
@@ -47,11 +47,6 @@ fn first_begin(base: &SceneBase, actions: &[usize]) -> StageTime {
     let times = base.plan.schedule().times();
     let begins = actions.iter().filter_map(|&action| times.get(action)).map(|times| times.begin);
     begins.min().unwrap_or_default()
-}
-
-/// Returns the label of a step that moves actions.
-pub(in crate::panels) fn move_label(actions: &[usize]) -> ScriptLabel {
-    if actions.len() > 1 { ScriptLabel::MoveClips } else { ScriptLabel::MoveClip }
 }
 
 /// Lets the first of the selected actions begin at the playhead, the others as long after it as now.

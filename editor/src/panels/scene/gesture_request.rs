@@ -25,3 +25,8 @@ pub(in crate::panels) fn gesture_request(
         Err(refusal) => SceneRequest::Refused(refusal.to_string()),
     })
 }
+
+/// Returns the label of a step that moves actions.
+pub(in crate::panels) fn move_label(actions: &[usize]) -> ScriptLabel {
+    if actions.len() > 1 { ScriptLabel::MoveClips } else { ScriptLabel::MoveClip }
+}

@@ -37,6 +37,7 @@ mod viewport;
 pub(in crate::panels) use action_menu::submenu_of as add_action_menu;
 pub use base::SceneBase;
 pub use editing::SceneEditing;
+pub(in crate::panels) use gesture_request::move_label;
 pub use left_scene::LeftScene;
 pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;

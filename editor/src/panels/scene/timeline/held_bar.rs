@@ -3,10 +3,9 @@
 use super::lane_layout::{SceneBarPart, SceneHit};
 use super::sheet::SceneSheet;
 use super::snap::snapped_time;
-use crate::panels::actions::scene_clips::move_label;
 use crate::panels::drag::{PointerInput, readout};
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
+use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange, move_label};
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, SequenceOrder, in_this_text, move_clips, move_clips_to_lane,
     set_fade, set_speed, trim_end, trim_start,
