@@ -37,7 +37,7 @@ pub(in crate::panels) fn attach(workspace: &mut Workspace) -> Option<Effect> {
         base.plan.scene_at(at, &mut state);
         let by = base.plan.place_of_name(&holder, &state);
         let by = by.ok_or_else(|| GestureRefusal(format!("There is no {holder} to hold it")))?;
-        let attached = |id: &Box<str>| {
+        let attached = |id: &str| {
             let thing = base.plan.thing_called(id).and_then(|thing| state.things.get(thing));
             let place = thing.map(|thing| RigidPlace {
                 position: thing.transform.translation.as_dvec3(),
@@ -46,7 +46,7 @@ pub(in crate::panels) fn attach(workspace: &mut Workspace) -> Option<Effect> {
             let grip = place.map(|place| HeldGrip::keeping(&by, &place));
             attach_splices(&base.scene(), id, &holder, at, grip.as_ref())
         };
-        let parts: Result<Vec<_>, GestureRefusal> = things.iter().map(attached).collect();
+        let parts: Result<Vec<_>, GestureRefusal> = things.iter().map(|id| attached(id)).collect();
         spliced_text(&base.script, joined(parts?)?)
     });
     if effect.is_some() {
@@ -64,11 +64,11 @@ pub(in crate::panels) fn detach(workspace: &mut Workspace) -> Option<Effect> {
     gesture(workspace, ScriptLabel::Detach, |base| {
         let mut state = base.plan.new_scene();
         base.plan.scene_at(at, &mut state);
-        let is_held = |id: &&Box<str>| {
+        let is_held = |id: &str| {
             let hold = base.plan.thing_called(id).and_then(|thing| base.plan.hold_of(thing, &state));
             matches!(hold, Some(ThingHold::Attached { .. }))
         };
-        let held: Vec<&Box<str>> = things.iter().filter(is_held).collect();
+        let held: Vec<&str> = things.iter().map(|id| &**id).filter(|id| is_held(id)).collect();
         if held.is_empty() {
             return Err(GestureRefusal("Nothing that is selected is held at this time".to_owned()));
         }

@@ -47,7 +47,7 @@ fn camera(workspace: &mut Workspace) -> Option<Box<str>> {
 
 /// Sets the focus to what is at a position of the window: a bone of a role, otherwise the distance of the surface or the ground there.
 pub(super) fn pick(workspace: &mut Workspace, at: Pos2, choice: Choice) -> Option<Effect> {
-    let camera = workspace.stage.focused_camera()?.clone();
+    let camera: Box<str> = workspace.stage.focused_camera()?.into();
     workspace.stage.focus(None);
     if workspace.scene.is_locked(&camera) {
         workspace.say(MessageSeverity::Info, format!("{camera} is locked"));

@@ -132,8 +132,8 @@ impl SceneViewport {
     }
 
     /// Returns the camera whose focus the next click sets.
-    pub fn focused_camera(&self) -> Option<&Box<str>> {
-        self.focused.as_ref()
+    pub fn focused_camera(&self) -> Option<&str> {
+        self.focused.as_deref()
     }
 
     /// Lets the next click set the focus of a camera, or select as usual.
