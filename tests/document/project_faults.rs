@@ -97,7 +97,7 @@ fn a_save_of_a_project_keeps_links_and_rights_of_its_texts() {
 }
 
 #[test]
-fn a_text_that_cannot_be_written_is_told_and_the_work_is_offered_after_a_kill() {
+fn a_text_that_cannot_be_written_is_reported_and_the_work_is_offered_after_a_kill() {
     let folder = Folder::new("project-unwritable");
     let path = project(&folder);
     let autosave = folder.join("autosave");

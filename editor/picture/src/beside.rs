@@ -1,4 +1,4 @@
-//! Views of the scene beside the viewport: the second view, and small pictures of shots.
+//! Views of the scene apart from the viewport: the second view, and small pictures of shots.
 
 use super::guard::caught;
 use super::pass::{FrameCommands, PassLayer};

@@ -238,7 +238,7 @@ impl Scene {
         (self.prepare_beside(SecondView { viewport: [0, 0, width, height], through }, now), playback)
     }
 
-    /// Computes everything for a view beside the viewport, without handles and helpers. Returns the look of the viewport.
+    /// Computes everything for a view apart from the viewport, without handles and helpers. Returns the look of the viewport.
     fn prepare_beside(&mut self, view: SecondView, now: Instant) -> Look {
         let own = Look {
             viewport: view.viewport,

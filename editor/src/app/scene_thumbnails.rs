@@ -54,7 +54,7 @@ impl ThumbnailLoader {
             let size = [picture.width() as usize, picture.height() as usize];
             Arc::new(ColorImage::from_rgba_unmultiplied(size, picture.as_raw()))
         });
-        // Where the graphics thread had no scene yet, it is asked again with the next frame.
+        // The graphics thread may have had no scene yet: then it is asked again with the next frame.
         if let Some(plan) = plan {
             state.thumbnails().receive(shot, plan, image);
         }
