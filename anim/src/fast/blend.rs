@@ -21,7 +21,7 @@ use super::simd::{Float8, Kernel, Simd, SimdLevel};
 use super::slerp::{dot, unit};
 
 /// Sum of weights from which a bone counts as fully weighted: the remainder is rounding.
-pub(super) const WHOLE: f32 = 1.0 - 1e-6;
+pub(crate) const WHOLE: f32 = 1.0 - 1e-6;
 
 /// One of several poses to blend.
 #[derive(Clone, Copy, Debug)]

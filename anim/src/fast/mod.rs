@@ -36,6 +36,7 @@ mod weigh;
 
 pub use additive::{add, difference};
 pub use binding::SkinBinding;
+pub(crate) use blend::WHOLE;
 pub use blend::{PoseLayer, blend, blend_normalized};
 pub use final_poses::final_poses;
 pub use keyed::KeyedTake;

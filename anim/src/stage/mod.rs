@@ -117,7 +117,8 @@
 //!
 //! # Limits
 //!
-//! Texts have at most 8 MB, 500,000 nodes and 64 levels, a script together with everything that it includes; files are included at most 8 deep. Document types and entities are refused. Elements and attributes of other namespaces are
+//! A script has at most 8 MB and 500,000 nodes, together with everything that it includes. Each file has at most 64 levels by itself, and
+//! files are included at most 8 deep. Document types and entities are refused. Elements and attributes of other namespaces are
 //! kept and ignored.
 
 mod assets;

@@ -5,10 +5,14 @@
 //! grow in length as fractions do, and are the same on every system. What is no whole number of ticks (the length of a curve divided by a
 //! speed) is rounded once, to the nearest tick. The unit is the flick of Meta's library of that name.
 
+use std::fmt;
 use std::ops::{Add, Neg, Sub};
 
 /// Number of ticks in a second.
 pub const TICKS_PER_SECOND: i64 = 705_600_000;
+
+/// A thousandth of a second: times are written in whole ones unless their unit is another.
+pub(in crate::stage) const MILLISECOND: StageTime = StageTime(TICKS_PER_SECOND / 1000);
 
 /// Longest time that a script may contain, in either direction: 24 hours.
 pub const LONGEST: StageTime = StageTime(86_400 * TICKS_PER_SECOND);
@@ -166,6 +170,16 @@ impl Default for StageRate {
     }
 }
 
+/// Writes the rate as [`StageRate::parse`] reads it: `24`, `30000/1001`.
+impl fmt::Display for StageRate {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.seconds {
+            1 => write!(out, "{}", self.frames),
+            seconds => write!(out, "{}/{seconds}", self.frames),
+        }
+    }
+}
+
 impl StageRate {
     /// Creates a rate of `frames` in `seconds`; `None` where one of them is 0 or the rate is above 1,000 per second or below 1.
     pub fn new(frames: u32, seconds: u32) -> Option<Self> {
@@ -229,7 +243,7 @@ pub fn parse_time(text: &str, rate: StageRate) -> Option<StageTime> {
         let time = StageTime(i64::from(minutes) * 60 * TICKS_PER_SECOND) + second.times(seconds);
         if negative { -time } else { time }
     } else if let Some(number) = text.strip_suffix("ms") {
-        StageTime(TICKS_PER_SECOND / 1000).times(Decimal::parse(number)?)
+        MILLISECOND.times(Decimal::parse(number)?)
     } else if let Some(number) = text.strip_suffix('f') {
         rate.frames(Decimal::parse(number)?)
     } else {

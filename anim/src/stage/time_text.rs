@@ -1,7 +1,7 @@
 //! Times as they are written in scripts.
 
 use super::moment::MomentText;
-use super::time::{StageRate, StageTime, TICKS_PER_SECOND, parse_time};
+use super::time::{MILLISECOND, StageRate, StageTime, TICKS_PER_SECOND, parse_time};
 
 /// Number of decimals of seconds up to which frames are not shorter to read.
 const PLEASANT: usize = 3;
@@ -34,7 +34,7 @@ pub(super) fn readable(time: StageTime, rate: StageRate) -> StageTime {
     if seconds(whole, rate, PLEASANT).is_some() || frames(whole, rate, "f").is_some() {
         return time;
     }
-    let thousandth = TICKS_PER_SECOND / 1000;
+    let thousandth = MILLISECOND.ticks();
     StageTime::from_ticks(time.ticks().div_euclid(thousandth) * thousandth)
 }
 
@@ -87,7 +87,7 @@ fn seconds(time: StageTime, rate: StageRate, most: usize) -> Option<String> {
 
 fn milliseconds(time: StageTime, rate: StageRate, like: &str) -> Option<String> {
     like.strip_suffix("ms")?;
-    let thousandth = TICKS_PER_SECOND / 1000;
+    let thousandth = MILLISECOND.ticks();
     exact(format!("{}ms", (time.ticks() + thousandth / 2) / thousandth), time, rate)
 }
 

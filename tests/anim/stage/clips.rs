@@ -4,11 +4,13 @@ use super::actors::{assets, at, bits, fox, fox_script, planned};
 use super::gestures::{called, changed, gesture, moved};
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureScene, SequenceOrder, copied_clips, delete_clips, duplicate_clips, move_clips,
-    move_to_lane, paste_clips, set_fade, trim_end, trim_start,
+    FadeEnd, Followers, GestureScene, SequenceOrder, copied_clips, delete_clip, delete_clips, duplicate_clip,
+    duplicate_clips, move_clips, move_to_lane, paste_clips, set_fade, set_repeat, set_speed, trim_end,
+    trim_start,
 };
 use dragonfly_anim::stage::lanes::{SceneLanes, Takeover};
-use dragonfly_anim::stage::time::StageTime;
+use dragonfly_anim::stage::script::StageRepeat;
+use dragonfly_anim::stage::time::{Decimal, StageTime};
 
 fn seconds(seconds: f64) -> StageTime {
     StageTime::from_seconds(seconds)
@@ -97,6 +99,39 @@ fn trimmed_ends_and_starts_mix_too_and_other_lanes_and_layers_do_not() {
     let short = TWO.replace("begin=\"3\"", "begin=\"3\" to=\"0.5\"");
     let line = changed(&short, |scene| moved(scene, "b", 0.5)).concat();
     assert!(!line.contains("fade-in"), "{line}");
+}
+
+#[test]
+fn a_fade_follows_an_overlap_whatever_changes_it() {
+    let text = after(&fox_script(TWO), |scene| moved(scene, "b", 1.5));
+    let b = |new: &str| line_of(new, "b");
+    let slower = after(&text, |scene| set_speed(scene, called(scene, "a"), 0.8));
+    assert_eq!(b(&slower), r#"<play id="b" who="anna" take="Survey" begin="1.5" fade-in="1"/>"#);
+    let twice = StageRepeat::Times(Decimal::parse("2").unwrap());
+    let longer = after(&text, |scene| set_repeat(scene, called(scene, "a"), twice));
+    assert_eq!(b(&longer), r#"<play id="b" who="anna" take="Survey" begin="1.5" fade-in="2.5"/>"#);
+    let alone = r#"<play id="b" who="anna" take="Survey" begin="1.5"/>"#;
+    assert_eq!(b(&after(&text, |scene| delete_clip(scene, called(scene, "a"), Followers::Follow))), alone);
+    let more = text.replace("</par>", "<wait id=\"w\" dur=\"1\"/></par>");
+    let two = |scene: &GestureScene<'_>| [called(scene, "a"), called(scene, "w")];
+    assert_eq!(b(&after(&more, |scene| delete_clips(scene, &two(scene), Followers::Follow))), alone);
+    // A copy begins when the original ends, and overlaps nothing.
+    let copied = after(&text, |scene| duplicate_clip(scene, called(scene, "b")));
+    assert_eq!(b(&copied), b(&text));
+    assert_eq!(line_of(&copied, "b-2"), r#"<play id="b-2" who="anna" take="Survey" begin="4.916"/>"#);
+}
+
+#[test]
+fn fades_follow_overlaps_in_the_lanes_of_other_things_and_of_ways() {
+    let actions = "<play id=\"p\" who=\"ben\" take=\"Survey\" to=\"2\"/>\n<play id=\"q\" who=\"ben\" take=\"Survey\" begin=\"k.end\"/>\n\
+                   <play id=\"k\" who=\"anna\" take=\"Survey\" to=\"1\" begin=\"2\"/>";
+    let text = after(&fox_script(actions), |scene| moved(scene, "k", 0.5));
+    assert_eq!(line_of(&text, "q"), r#"<play id="q" who="ben" take="Survey" begin="k.end" fade-in="0.5"/>"#);
+    // The way is 5 m long.
+    let actions = "<move id=\"m\" who=\"ben\" path=\"aisle\" take=\"Walk\" speed=\"2.5\"/>\n\
+                   <play id=\"q\" who=\"ben\" take=\"Survey\" begin=\"1.5\" fade-in=\"0.5\"/>";
+    let slower = after(&fox_script(actions), |scene| set_speed(scene, called(scene, "m"), 2.0));
+    assert_eq!(line_of(&slower, "q"), r#"<play id="q" who="ben" take="Survey" begin="1.5" fade-in="1"/>"#);
 }
 
 #[test]

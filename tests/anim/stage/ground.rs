@@ -51,7 +51,7 @@ pub(super) fn sheet(cells: u32, size: f32, height: impl Fn(f32, f32) -> f32) -> 
 }
 
 /// Returns a closed box between two corners, whose faces look outwards.
-fn solid(min: Vec3, max: Vec3) -> ModelData {
+pub(super) fn solid(min: Vec3, max: Vec3) -> ModelData {
     let corner = |at: usize| {
         let pick = |axis: usize| if at & (1 << axis) == 0 { min[axis] } else { max[axis] };
         Vec3::new(pick(0), pick(1), pick(2))
@@ -338,4 +338,30 @@ fn the_ground_is_prepared_once_for_all_texts_and_props_of_its_model() {
     assert!(is_right);
     // 80,000 triangles are some megabytes.
     assert!(first.bytes > 3 << 20 && second.bytes < 1 << 20, "{} {}", first.bytes, second.bytes);
+}
+
+/// Returns a closed double cone of `around` triangles above and below, whose tips are over each other.
+fn spindle(around: u32) -> ModelData {
+    let ring = |at: u32| {
+        let angle = std::f32::consts::TAU * at as f32 / around as f32;
+        Vec3::new(angle.cos(), 2.5, angle.sin())
+    };
+    let positions = [Vec3::Y * 3.0, Vec3::Y * 2.0].into_iter().chain((0..around).map(ring)).collect();
+    let sides = (0..around).flat_map(|at| {
+        let (this, next) = (2 + at, 2 + (at + 1) % around);
+        [0, next, this, 1, this, next]
+    });
+    model(positions, sides.collect(), Mat4::IDENTITY)
+}
+
+#[test]
+fn below_the_tip_of_a_fan_of_triangles_is_the_floor() {
+    for around in [5, 31, 48, 200] {
+        let plan = walked("-4 0 0  6 0 0", &["", ""], vec![spindle(around), sheet(1, 20.0, |_, _| 0.0)]);
+        for height in [0.0, 0.4] {
+            assert_eq!(plan.ground_at(DVec3::Y * height), Some(0.0), "{around}");
+        }
+        let top = plan.ground_at(DVec3::Y * 3.0).unwrap();
+        assert!((top - 3.0).abs() < 1e-9, "{around}: {top}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Feet on ground that is a mesh: they do not slide, and are on it.
 
 use super::actors::{bone, fox, planned, rogue, seconds, thing};
-use super::ground::sheet;
+use super::ground::{sheet, solid};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan, StageScene};
 use glam::{Vec2, Vec3};
@@ -141,5 +141,49 @@ fn footprints_are_on_the_ground() {
         assert!((print.position.y - ground).abs() < 1e-9, "{print:?} {ground}");
         let expected = 0.3 * print.position.x + 0.1 * print.position.z * print.position.z;
         assert!((ground - expected).abs() < 0.02, "{ground} {expected}");
+    }
+}
+
+#[test]
+fn a_foot_beyond_the_edge_of_a_platform_stays_at_its_height() {
+    let model = fox();
+    let mut assets = StageAssets::default();
+    assets.add_model("a.glb", Arc::clone(&model));
+    let platform = solid(Vec3::new(-2.0, 2.0, -9.0), Vec3::new(2.0, 3.0, 9.0));
+    for (name, ground) in [("platform.glb", platform), ("floor.glb", sheet(1, 40.0, |_, _| 0.0))] {
+        assets.add_model(name, Arc::new(StageModel::new(Arc::new(ground))));
+    }
+    let floor = "<prop id=\"floor\" model=\"floor.glb\" ground=\"yes\"/>";
+    let walk = |floor: &str, x: f32| {
+        planned(
+            &format!(
+                "<script version=\"1\"><cast><role id=\"anna\" model=\"a.glb\" scale=\"0.01\"/>{floor}\
+                 <prop id=\"high\" model=\"platform.glb\" ground=\"yes\"/><path id=\"way\" points=\"{x} 3 -2  {x} 3 2\"/></cast>\
+                 <move who=\"anna\" path=\"way\" take=\"Walk\" ground=\"mesh\"/></script>"
+            ),
+            &assets,
+        )
+    };
+    for floor in ["", floor] {
+        let (middle, edge) = (walk(floor, 0.0), walk(floor, 1.99));
+        let (mut one, mut other) = (middle.new_scene(), edge.new_scene());
+        let mut beyond = 0;
+        for step in 0..200 {
+            let time = seconds(edge.length().seconds() * f64::from(step) / 200.0);
+            middle.scene_at(time, &mut one);
+            edge.scene_at(time, &mut other);
+            for foot in model.feet() {
+                let expected = bone(&middle, &one, "anna", foot.bone) + Vec3::X * 1.99;
+                let found = bone(&edge, &other, "anna", foot.bone);
+                assert!(found.distance(expected) < 2e-4, "{found} instead of {expected} at {time:?}");
+                beyond += usize::from(found.x > 2.0);
+            }
+        }
+        assert!(beyond > 100, "{beyond}");
+        let prints = edge.footprints_of(edge.path_walks().next().unwrap());
+        assert!(prints.iter().any(|print| print.position.x > 2.0), "{prints:?}");
+        for print in prints {
+            assert!((print.position.y - 3.0).abs() < 1e-9, "{print:?}");
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod actors;
 mod clips;
+mod copied_clips;
 mod errors;
 mod feet;
 mod followed_paths;
@@ -10,6 +11,7 @@ mod gestures_in_projects;
 mod ground;
 mod ground_feet;
 mod holding;
+mod include_clips;
 mod include_gestures;
 mod includes;
 mod kept_times;

@@ -1,6 +1,7 @@
 //! Random sequences of all gestures: the text stays a script, only what a gesture names changes, and the inverses lead back.
 
 use super::actors::{assets, fox};
+use super::includes::{context, cut_out};
 use super::random_scripts;
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, add_new_action, attach_thing,
@@ -9,9 +10,9 @@ use dragonfly_anim::stage::gesture::{
     set_repeat, set_speed, trim_end, trim_start, wait_after,
 };
 use dragonfly_anim::stage::lanes::SceneLanes;
-use dragonfly_anim::stage::script::{StageRepeat, StageScript};
+use dragonfly_anim::stage::script::{ScriptContext, ScriptElement, StageRepeat, StageScript};
 use dragonfly_anim::stage::splice::TextSplice;
-use dragonfly_anim::stage::table::NEW_ACTIONS;
+use dragonfly_anim::stage::table::{ElementGroup, NEW_ACTIONS};
 use dragonfly_anim::stage::time::{Decimal, StageTime};
 use dragonfly_anim::stage::{StageAssets, StagePlan};
 use dragonfly_kit::random::{Random, seed};
@@ -107,13 +108,34 @@ fn random_gesture(random: &mut Random, scene: &GestureScene<'_>) -> (Named, Resu
     }
 }
 
-/// Returns the attributes of each element that has an id, its fade at the start apart.
+/// Attributes of each element that has an id, its fade at the start apart.
 type Signatures = BTreeMap<String, (Vec<(&'static str, String)>, Option<String>)>;
+
+/// Returns the id of an element; with another one for the same id in the included file.
+fn key(element: &ScriptElement) -> Option<String> {
+    let file = if element.is_included() { "part.xml " } else { "" };
+    element.value("id").map(|id| format!("{file}{id}"))
+}
+
+/// Returns begin and end of the takes and ways of a thing.
+fn lane(script: &StageScript, plan: &StagePlan, who: &str) -> Vec<[StageTime; 2]> {
+    let is_on = |action: &usize| {
+        let element = script.element(*action);
+        matches!(element.row.name, "play" | "move") && element.value("who") == Some(who)
+    };
+    let times = |action: usize| [plan.schedule().times()[action].begin, plan.schedule().times()[action].stop];
+    let mut all: Vec<[StageTime; 2]> = (1..script.actions().len()).filter(is_on).map(times).collect();
+    all.sort();
+    all
+}
 
 fn signatures(script: &StageScript) -> Signatures {
     let elements = script.tree().elements().iter();
-    let named = elements.filter_map(|element| Some((element.value("id")?.to_owned(), element)));
-    let signature = |element: &dragonfly_anim::stage::script::ScriptElement| {
+    // The casts of both files have the same things.
+    let counts =
+        |element: &&ScriptElement| !(element.is_included() && element.row.group == ElementGroup::Thing);
+    let named = elements.filter(counts).filter_map(|element| Some((key(element)?, element)));
+    let signature = |element: &ScriptElement| {
         let others = element.attributes.iter().filter(|attribute| attribute.row.name != "fade-in");
         let others = others.map(|attribute| (attribute.row.name, attribute.value.to_string())).collect();
         (others, element.attribute("fade-in").map(|fade| fade.value.to_string()))
@@ -122,22 +144,24 @@ fn signatures(script: &StageScript) -> Signatures {
 }
 
 /// Checks that only the elements changed, or are gone, that a gesture may change.
-fn check_changes(named: &Named, old: &StageScript, new: &StageScript, seed: u64) {
-    let id = |action: usize| old.element(action).value("id").map(str::to_owned);
-    let (mut may, mut lanes): (BTreeSet<String>, BTreeSet<String>) = Default::default();
+fn check_changes(
+    named: &Named,
+    (old, before_plan): (&StageScript, &StagePlan),
+    (new, after_plan): (&StageScript, &StagePlan),
+    seed: u64,
+) {
+    let id = |action: usize| key(old.element(action));
+    let mut may: BTreeSet<String> = BTreeSet::new();
     let actions = old.actions();
     for &action in &named.actions {
-        let range = old.element(action).range.clone();
-        let inside = (1..actions.len()).filter(|&other| {
-            let other = &old.element(other).range;
-            range.start <= other.start && other.end <= range.end
-        });
+        let is_inside = |&other: &usize| {
+            std::iter::successors(Some(other), |&at| actions[at].parent).any(|around| around == action)
+        };
+        let inside = (1..actions.len()).filter(is_inside);
         may.extend(inside.filter_map(id));
         let parent = actions[action].parent.unwrap_or(0);
         may.extend(actions[parent].children.get(actions[action].position + 1).and_then(|&next| id(next)));
-        lanes.extend(old.element(action).value("who").map(str::to_owned));
     }
-    lanes.extend(named.things.iter().map(|thing| (*thing).to_owned()));
     if ["place", "face", "path point"].contains(&named.name) {
         may.extend(named.things.iter().map(|thing| (*thing).to_owned()));
     }
@@ -151,12 +175,14 @@ fn check_changes(named: &Named, old: &StageScript, new: &StageScript, seed: u64)
             );
             continue;
         };
-        let on_lane = old
-            .action_called(id)
-            .is_some_and(|action| old.element(action).value("who").is_some_and(|who| lanes.contains(who)));
+        // A fade follows the overlaps of its lane, whatever changes these.
+        let is_one = |action: &usize| key(old.element(*action)).as_ref() == Some(id);
+        let who = (1..actions.len()).find(is_one).and_then(|action| old.element(action).value("who"));
+        let lane_changes =
+            || who.is_some_and(|who| lane(old, before_plan, who) != lane(new, after_plan, who));
         assert!(may.contains(id) || now.0 == signature.0, "seed {seed}: {} changed {id}", named.name);
         assert!(
-            may.contains(id) || on_lane || now.1 == signature.1,
+            may.contains(id) || now.1 == signature.1 || (!id.starts_with("part.xml ") && lane_changes()),
             "seed {seed}: {} changed the fade of {id}",
             named.name
         );
@@ -176,7 +202,7 @@ fn random_gestures_change_only_what_they_name_and_their_inverses_lead_back_to_th
     println!("seed {first}");
     let model = fox();
     let assets: StageAssets = assets(&model);
-    let (mut done, mut refused, mut scripts) = (BTreeMap::<&str, usize>::new(), 0, 0);
+    let (mut done, mut refused, mut scripts, mut including) = (BTreeMap::<&str, usize>::new(), 0, 0, 0);
     let mut at = first;
     while scripts < 300 {
         at += 1;
@@ -185,10 +211,17 @@ fn random_gestures_change_only_what_they_name_and_their_inverses_lead_back_to_th
         for take in ["PickUp", "Slash", "Idle", "Fall"] {
             text = text.replace(&format!("\"{take}\""), "\"Survey\"");
         }
+        let mut context = ScriptContext::default();
+        if at % 2 == 0
+            && let Some((_, include, file)) = cut_out(&text, &mut random)
+        {
+            context = self::context("duel.xml", &include, &[("part.xml", &file)]);
+            text = include;
+        }
         let original = text.clone();
         let mut inverses: Vec<TextSplice> = Vec::new();
         for _ in 0..14 {
-            let Ok(script) = StageScript::read(text.as_str()) else { break };
+            let Ok(script) = StageScript::read_in(text.as_str(), &context) else { break };
             let Ok(plan) = StagePlan::new(&script, &assets) else { break };
             if script.actions().len() < 2 {
                 break;
@@ -202,12 +235,17 @@ fn random_gestures_change_only_what_they_name_and_their_inverses_lead_back_to_th
             match random_gesture(&mut random, &scene) {
                 (named, Ok(new)) => {
                     let name = named.name;
-                    let changed = StageScript::read(new.as_str())
+                    let changed = StageScript::read_in(new.as_str(), &context)
                         .unwrap_or_else(|errors| panic!("seed {at} {name}: {}\n{new}", errors[0]));
-                    if let Err(errors) = StagePlan::new(&changed, &assets) {
-                        panic!("seed {at} {name}: {}\n{text}\n{new}", errors[0]);
-                    }
-                    check_changes(&named, &script, &changed, at);
+                    let after = StagePlan::new(&changed, &assets)
+                        .unwrap_or_else(|errors| panic!("seed {at} {name}: {}\n{text}\n{new}", errors[0]));
+                    check_changes(&named, (&script, &plan), (&changed, &after), at);
+                    including += usize::from(
+                        changed
+                            .actions()
+                            .iter()
+                            .any(|action| changed.tree().elements()[action.element].is_included()),
+                    );
                     inverses.extend(TextSplice::between(&new, &text));
                     *done.entry(name).or_default() += 1;
                     text = new;
@@ -224,7 +262,8 @@ fn random_gestures_change_only_what_they_name_and_their_inverses_lead_back_to_th
         }
         assert_eq!(text, original, "seed {at}");
     }
-    println!("{done:?}, {refused} refused");
+    println!("{done:?}, {refused} refused, {including} with another file");
+    assert!(including > 100, "{including}");
     assert!(done.values().all(|&count| count > 0), "{done:?}");
     assert!(done.len() + 2 >= GESTURES - 2, "{} gestures: {done:?}", done.len());
 }

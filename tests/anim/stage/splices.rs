@@ -3,8 +3,8 @@
 use super::{DUEL, listed, read};
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::splice::{
-    AttachedComments, ElementPlace, NewElement, TextSplices, delete, duplicate, insert, is_used, move_to,
-    remove_attribute, rename, set_attribute, unique_id,
+    AttachedComments, ElementPlace, NewElement, RenameRefusal, TextSplices, delete, duplicate, insert,
+    is_used, move_to, remove_attribute, rename, set_attribute, unique_id,
 };
 use dragonfly_kit::random::{Random, seed};
 
@@ -162,7 +162,7 @@ fn a_moved_element_keeps_its_spelling_and_is_indented_as_its_new_siblings() {
 
 #[test]
 fn a_new_name_is_written_wherever_the_old_one_is_used() {
-    let new = changed(DUEL, |script| rename(script.tree(), with_id(script, "anna"), "eve"));
+    let new = changed(DUEL, |script| rename(script.tree(), with_id(script, "anna"), "eve").ok());
     assert_eq!(
         new.matches("\"eve\"").count() + new.matches("\"eve.").count(),
         DUEL.matches("\"anna\"").count() + DUEL.matches("\"anna.").count()
@@ -171,11 +171,12 @@ fn a_new_name_is_written_wherever_the_old_one_is_used() {
         new.matches("anna").count(),
         DUEL.matches("anna-").count() + DUEL.matches("/anna.glb").count()
     );
-    let new = changed(DUEL, |script| rename(script.tree(), with_id(script, "grab"), "take"));
+    let new = changed(DUEL, |script| rename(script.tree(), with_id(script, "grab"), "take").ok());
     assert_eq!(new.matches("take.touch").count(), 4);
     let script = read(DUEL);
     for wrong in ["", "9", "prev", "ben", "a.b"] {
-        assert_eq!(rename(script.tree(), with_id(&script, "anna"), wrong), None, "{wrong}");
+        let refused = rename(script.tree(), with_id(&script, "anna"), wrong);
+        assert_eq!(refused, Err(RenameRefusal::NoName(wrong.to_owned())));
     }
     assert!(is_used(script.tree(), "sword") && !is_used(script.tree(), "anna-acts"));
 }
@@ -184,7 +185,7 @@ fn a_new_name_is_written_wherever_the_old_one_is_used() {
 fn renaming_keeps_the_spelling_of_what_follows_the_name() {
     let text = "<script version=\"1\"><cast><role id='anna' model='a.glb'/><role id='ben' model='b.glb'/></cast>\n\
         <look who='ben' at='anna.a &gt; b&#x20;c' /><look who='&#97;nna' at='ben'/></script>";
-    let new = changed(text, |script| rename(script.tree(), with_id(script, "anna"), "eve"));
+    let new = changed(text, |script| rename(script.tree(), with_id(script, "anna"), "eve").ok());
     let expected =
         text.replace("'anna'", "'eve'").replace("'anna.a", "'eve.a").replace("'&#97;nna'", "'eve'");
     assert_eq!(new, expected);
@@ -239,7 +240,7 @@ fn random_edit(random: &mut Random, script: &StageScript) -> Option<(TextSplices
         5 => (duplicate(tree, element)?, tree.elements()[element].row.name != "cast", true),
         _ => {
             let id = unique_id(tree, random.choice(&["grab", "new", "x 1"]));
-            (rename(tree, element, &id)?, true, true)
+            (rename(tree, element, &id).ok()?, true, true)
         }
     })
 }

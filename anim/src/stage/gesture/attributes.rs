@@ -1,6 +1,7 @@
 //! Fades, speed and repetitions of clips.
 
 use super::draft::ScriptDraft;
+use super::mixes::{ActionOrigins, mixed};
 use super::scene::{GestureRefusal, GestureScene, refused};
 use super::trim::text;
 use crate::stage::script::StageRepeat;
@@ -94,5 +95,6 @@ fn change(
     value: Option<String>,
 ) -> Result<String, GestureRefusal> {
     let element = scene.script.actions()[action].element;
-    ScriptDraft::of(scene.script).with(&[(element, name, value)])?.finish()
+    let draft = ScriptDraft::of(scene.script).with(&[(element, name, value)])?;
+    mixed(scene, draft, &ActionOrigins::same(scene))?.finish()
 }

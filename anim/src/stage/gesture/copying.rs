@@ -1,19 +1,19 @@
 //! Clips as a text of the clipboard.
 
-use super::draft::ScriptDraft;
+use super::draft::{AttributeChange, ScriptDraft};
 use super::insert::{ActionPlace, place_in_par, place_index};
 use super::mixes::{ActionOrigins, mixed};
 use super::other_lane::fits_onto;
 use super::removal::duplicate_clip;
 use super::scene::{GestureRefusal, GestureScene, NO_PLACE, refused};
 use super::several::outermost;
-use crate::stage::script::{ScriptElement, ScriptTree};
+use crate::stage::script::{MomentText, ScriptElement, ScriptTree};
 use crate::stage::splice::{
     ElementPlace, TextSplices, insert_text, remove_attribute, set_attribute, written_element,
 };
 use crate::stage::table::ElementGroup;
-use crate::stage::time::{StageTime, parse_time};
-use crate::stage::time_text::{readable, time_text};
+use crate::stage::time::{StageRate, StageTime, parse_time};
+use crate::stage::time_text::{moment_text, readable, time_text};
 
 /// Start of a text of copied clips: that of a script without a cast.
 const HEAD: &str = "<script version=\"1\"";
@@ -28,31 +28,29 @@ pub fn copied_clips(scene: &GestureScene<'_>, actions: &[usize]) -> Result<Strin
     let actions = outermost(scene, actions)?;
     let first = actions.iter().map(|&action| scene.times(action).begin).min().unwrap_or_default();
     let rate = scene.script.rate();
-    let fps = scene.script.tree().elements()[0].value("fps").unwrap_or("24");
-    let mut text = format!("{HEAD} fps=\"{fps}\">\n");
-    for action in actions {
+    let mut changes: Vec<AttributeChange<'_>> = Vec::new();
+    for &action in &actions {
         let (own, times) = (&scene.script.actions()[action], scene.times(action));
         let element = scene.script.element(action);
         if element.row.group != ElementGroup::Action {
             return refused("Only actions are copied, not what contains them");
         }
-        let begin = time_text(readable(times.begin - first, rate), rate, "");
-        let draft = ScriptDraft::of(scene.script).with(&[
-            (own.element, "id", None),
-            (own.element, "begin", Some(begin)),
-            // Its own length where another action decided it.
-            (own.element, "end", None),
-        ])?;
-        let draft = match own.end.is_some()
-            || (own.passive && element.row.name != "shot" && own.dur.is_none() && times.stop > times.begin)
-        {
-            true => {
-                let dur = time_text(readable(times.stop - times.begin, rate), rate, "");
-                draft.with(&[(own.element, "dur", Some(dur))])?
-            }
-            false => draft,
-        };
-        text += &format!("  {}\n", written_element(draft.tree(), own.element).unwrap_or_default());
+        let written = |time: StageTime| Some(time_text(readable(time, rate), rate, ""));
+        changes.push((own.element, "id", None));
+        changes.push((own.element, "begin", written(times.begin - first)));
+        // Its own length where another action decided it.
+        changes.push((own.element, "end", None));
+        let ends_with_others =
+            own.passive && element.row.name != "shot" && own.dur.is_none() && times.stop > times.begin;
+        if own.end.is_some() || ends_with_others {
+            changes.push((own.element, "dur", written(times.stop - times.begin)));
+        }
+    }
+    let draft = ScriptDraft::of(scene.script).with(&changes)?;
+    let mut text = format!("{HEAD} fps=\"{rate}\">\n");
+    for action in actions {
+        let clip = written_element(draft.tree(), scene.script.actions()[action].element);
+        text += &format!("  {}\n", clip.unwrap_or_default());
     }
     text.push_str("</script>\n");
     Ok(text)
@@ -77,6 +75,7 @@ pub fn paste_clips(
 ) -> Result<String, GestureRefusal> {
     let copied = ScriptTree::read(copied)?;
     let rate = scene.script.rate();
+    let from_rate = copied.elements()[0].value("fps").and_then(StageRate::parse).unwrap_or_default();
     let at = at.max(StageTime::ZERO);
     let is_clip =
         |element: &ScriptElement| element.parent == Some(0) && element.row.group == ElementGroup::Action;
@@ -89,7 +88,7 @@ pub fn paste_clips(
     from.dedup();
     // Clips of several things stay with theirs.
     let onto = onto.filter(|_| from.len() <= 1);
-    let (mut origins, mut lanes) = (ActionOrigins::same(scene), Vec::new());
+    let mut origins = ActionOrigins::same(scene);
     let mut parts: Vec<(usize, ElementPlace, String)> = Vec::new();
     for clip in clips.into_iter().rev() {
         let element = &copied.elements()[clip];
@@ -103,15 +102,14 @@ pub fn paste_clips(
         };
         let near = (1..scene.script.actions().len()).rfind(own);
         let ActionPlace { place, base } = place_in_par(scene, near);
-        let offset = element.value("begin").and_then(|begin| parse_time(begin, rate));
+        let offset = element.value("begin").and_then(|begin| parse_time(begin, from_rate));
         let begin = readable(at + offset.unwrap_or_default() - base, rate);
-        let text = adapted(&copied, clip, who, &time_text(begin, rate, ""))?;
+        let text = adapted(&copied, clip, who, &time_text(begin, rate, ""), [from_rate, rate])?;
         let (ElementPlace::First(near) | ElementPlace::After(near)) = place;
         let range = scene.script.tree().elements().get(near).map(|element| element.range.clone());
         let at =
             range.map_or(0, |range| if place == ElementPlace::First(near) { range.start } else { range.end });
         parts.push((at, place, text));
-        lanes.extend(who);
     }
     // From the end of the text to its start, so that the elements before a new one keep their numbers.
     parts.sort_by_key(|(at, ..)| std::cmp::Reverse(*at));
@@ -120,7 +118,7 @@ pub fn paste_clips(
         origins = origins.with_new(place_index(scene, place));
         draft = draft.then(|tree| insert_text(tree, place, &text))?;
     }
-    mixed(scene, draft, &origins, lanes)?.finish()
+    mixed(scene, draft, &origins)?.finish()
 }
 
 /// Inserts copies of actions after the last of them ends, each as long after the first one as now. One action gets its copy after itself, as by
@@ -138,22 +136,47 @@ pub fn duplicate_clips(scene: &GestureScene<'_>, actions: &[usize]) -> Result<St
     paste_clips(scene, &copied_clips(scene, &actions)?, last, None)
 }
 
-/// Returns the text of a copied element with another thing and begin.
+/// Returns the text of a copied element with another thing and begin, and with times in frames of the second rate instead of the first.
 fn adapted(
     copied: &ScriptTree,
     clip: usize,
     who: Option<&str>,
     begin: &str,
+    rates: [StageRate; 2],
 ) -> Result<String, GestureRefusal> {
-    let begun = set_attribute(copied, clip, "begin", begin);
-    let given = who.map_or(Some(TextSplices::default()), |who| set_attribute(copied, clip, "who", who));
-    // The ids of a text from somewhere else may be taken.
-    let unnamed = remove_attribute(copied, clip, "id");
-    let splices = begun
-        .zip(given)
-        .zip(unnamed)
-        .and_then(|((begun, given), unnamed)| TextSplices::joined([begun, given, unnamed]));
+    let mut parts = vec![
+        set_attribute(copied, clip, "begin", begin),
+        // The ids of a text from somewhere else may be taken.
+        remove_attribute(copied, clip, "id"),
+    ];
+    parts.extend(who.map(|who| set_attribute(copied, clip, "who", who)));
+    parts.extend(converted(copied, clip, rates));
+    let splices = parts.into_iter().collect::<Option<Vec<TextSplices>>>().and_then(TextSplices::joined);
     let Some(splices) = splices else { return refused(NO_PLACE) };
     let tree = ScriptTree::read(splices.apply(copied.text()))?;
     written_element(&tree, clip).map_or_else(|| refused(NO_PLACE), Ok)
+}
+
+/// Returns the changes of the times in a copied element, except its begin, that are written in frames of the first rate: to frames of the second one, or to
+/// seconds.
+fn converted(copied: &ScriptTree, clip: usize, [from, to]: [StageRate; 2]) -> Vec<Option<TextSplices>> {
+    if from == to {
+        return Vec::new();
+    }
+    let whole = copied.elements()[clip].range.clone();
+    let inside = copied.elements().iter().enumerate().skip(clip);
+    let inside = inside.take_while(|(_, element)| element.range.start < whole.end);
+    let mut changes = Vec::new();
+    for (at, element) in inside {
+        for attribute in &element.attributes {
+            let (name, old) = (attribute.row.name, &*attribute.value);
+            if !attribute.row.value.has_frames() || !old.ends_with('f') || (at == clip && name == "begin") {
+                continue;
+            }
+            if let Some(moment) = MomentText::parse(old, from) {
+                changes.push(set_attribute(copied, at, name, &moment_text(&moment, to, old)));
+            }
+        }
+    }
+    changes
 }

@@ -1,7 +1,7 @@
 //! New actions: shots and clips.
 
 use super::draft::ScriptDraft;
-use super::mixes::{ActionOrigins, mixed, with_children};
+use super::mixes::{ActionOrigins, mixed};
 use super::scene::{GestureRefusal, GestureScene, NO_PLACE, refused};
 use crate::stage::script::ScriptElement;
 use crate::stage::splice::{ElementPlace, NewElement, TextSplices, insert};
@@ -168,7 +168,7 @@ pub(super) fn add_action(
         action = action.with("begin", begin);
     }
     let draft = ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &action))?;
-    mixed(scene, draft, &ActionOrigins::same(scene).with_new(place_index(scene, place)), Some(who))?.finish()
+    mixed(scene, draft, &ActionOrigins::same(scene).with_new(place_index(scene, place)))?.finish()
 }
 
 /// Returns the position among the actions of a new one at a place.
@@ -177,7 +177,7 @@ pub(super) fn place_index(scene: &GestureScene<'_>, place: ElementPlace) -> usiz
     let near = scene.script.actions().iter().position(|other| other.element == near);
     match (near, place) {
         (Some(near), ElementPlace::First(_)) => near + 1,
-        (Some(near), ElementPlace::After(_)) => with_children(scene.script, near).end,
+        (Some(near), ElementPlace::After(_)) => scene.script.branch(near).end,
         // After the cast.
         (None, _) => 1,
     }

@@ -6,7 +6,7 @@ use super::trim::text;
 use crate::stage::lanes::{is_same, overlaps};
 use crate::stage::schedule::{ActionTimes, resolve};
 use crate::stage::script::{ScriptElement, StageScript};
-use crate::stage::time::StageTime;
+use crate::stage::time::{Decimal, StageTime};
 use crate::stage::time_text::readable;
 use std::collections::HashMap;
 
@@ -28,6 +28,43 @@ impl ActionOrigins {
         Self(all)
     }
 
+    /// Returns the origins where `actions` are deleted with everything in them.
+    pub(super) fn without(scene: &GestureScene<'_>, actions: &[usize]) -> Self {
+        let mut all = Self::same(scene).0;
+        let branches: Vec<_> = actions.iter().map(|&action| scene.script.branch(action)).collect();
+        all.retain(|origin| !origin.is_some_and(|at| branches.iter().any(|branch| branch.contains(&at))));
+        Self(all)
+    }
+
+    /// Returns the origins where a copy of an action is after it. What a copy was before is the original.
+    pub(super) fn copied(scene: &GestureScene<'_>, action: usize) -> Self {
+        let mut all = Self::same(scene).0;
+        let branch = scene.script.branch(action);
+        all.splice(branch.end..branch.end, branch.map(Some));
+        Self(all)
+    }
+
+    /// Returns for each action of the script after the gesture what it was before; `None` for a new one.
+    fn in_script(&self, scene: &GestureScene<'_>, script: &StageScript) -> Vec<Option<usize>> {
+        let is_own =
+            |origin: &&Option<usize>| origin.is_none_or(|origin| scene.script.element(origin).is_own());
+        let mut own = self.0.iter().filter(is_own);
+        let mut all: Vec<Option<usize>> = Vec::with_capacity(script.actions().len());
+        for action in 0..script.actions().len() {
+            all.push(match script.element(action).is_own() {
+                true => own.next().copied().flatten(),
+                // The actions of an included file come after the `include`, in their order.
+                false => {
+                    let include = script.action_in_text(action);
+                    let was = all.get(include).copied().flatten();
+                    let inner = was.map(|was| (scene.script.branch(was), was + action - include));
+                    inner.filter(|(branch, at)| branch.contains(at)).map(|(_, at)| at)
+                }
+            });
+        }
+        all
+    }
+
     /// Returns these origins with a new action after the `before` first ones of the script before the gesture, and after new ones there.
     pub(super) fn with_new(mut self, before: usize) -> Self {
         let at = self.0.iter().position(|origin| origin.is_some_and(|origin| origin >= before));
@@ -36,61 +73,53 @@ impl ActionOrigins {
     }
 }
 
-/// Returns an action and those in it.
-pub(super) fn with_children(script: &StageScript, action: usize) -> std::ops::Range<usize> {
-    let end = script.element(action).range.end;
-    let inner = script.actions()[action..].iter();
-    let count = inner.take_while(|inner| script.tree().elements()[inner.element].range.start < end).count();
-    action..action + count
-}
-
-/// Gives the clips of the things `lanes` fades as long as their overlaps with the clips before them, where a gesture changed these overlaps.
-/// A fade that was not as long as the overlap before stays.
-pub(super) fn mixed<'a, 'b>(
+/// Gives clips fades as long as their overlaps with the clips before them, where a gesture changed these overlaps, in the lanes of all things.
+/// A fade that was not as long as the overlap before stays, and so does one of an included file.
+pub(super) fn mixed<'a>(
     scene: &GestureScene<'_>,
     draft: ScriptDraft<'a>,
     origins: &ActionOrigins,
-    lanes: impl IntoIterator<Item = &'b str>,
 ) -> Result<ScriptDraft<'a>, GestureRefusal> {
     let Some(script) = draft.read()? else { return Ok(draft) };
-    let schedule = resolve(&script, &lengths_after(scene, &script, origins))?;
+    let origins = origins.in_script(scene, &script);
+    let schedule = resolve(&script, &lengths_after(scene, &script, &origins))?;
+    let old = mixes(scene.script, scene.schedule().times());
+    let new = mixes(&script, schedule.times());
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
-    let mut lanes: Vec<&str> = lanes.into_iter().collect();
-    lanes.sort_unstable();
-    lanes.dedup();
-    for who in lanes {
-        let old = mixes(scene.script, scene.schedule().times(), who);
-        let new = mixes(&script, schedule.times(), who);
-        for action in 1..script.actions().len() {
-            let element = script.element(action);
-            if element.value("who") != Some(who) || element.row.attribute("fade-in").is_none() {
-                continue;
-            }
-            let origin = origins.0.get(action).copied().flatten();
-            let before = origin.and_then(|origin| old.get(&origin)).copied().unwrap_or_default();
-            let after = new.get(&action).copied().unwrap_or_default();
-            let fade = script.time(element, "fade-in").unwrap_or_default();
-            if is_same(before, after) || !is_same(fade, before) {
-                continue;
-            }
-            let length = readable(after, script.rate());
-            let value = (length > StageTime::ZERO).then(|| text(scene, element, "fade-in", length));
-            changes.push((script.actions()[action].element, "fade-in", value));
+    for action in 1..script.actions().len() {
+        let element = script.element(action);
+        if !element.is_own() || element.row.attribute("fade-in").is_none() {
+            continue;
         }
+        let before = origins[action].and_then(|origin| old.get(&origin)).copied().unwrap_or_default();
+        let after = new.get(&action).copied().unwrap_or_default();
+        let fade = script.time(element, "fade-in").unwrap_or_default();
+        if is_same(before, after) || !is_same(fade, before) {
+            continue;
+        }
+        let length = readable(after, script.rate());
+        let value = (length > StageTime::ZERO).then(|| text(scene, element, "fade-in", length));
+        changes.push((script.actions()[action].element, "fade-in", value));
     }
     draft.with(&changes)
 }
 
 /// Returns for each clip that overlaps the one before it the duration of their mix.
-fn mixes(script: &StageScript, times: &[ActionTimes], who: &str) -> HashMap<usize, StageTime> {
-    overlaps(script, times, Some(who)).into_iter().map(|clip| (clip.action, clip.mix(times))).collect()
+fn mixes(script: &StageScript, times: &[ActionTimes]) -> HashMap<usize, StageTime> {
+    overlaps(script, times).into_iter().map(|clip| (clip.action, clip.mix(times))).collect()
 }
 
-/// Returns the duration of one repetition of each action of a changed script: of a take by its own attributes, of others as it was.
-fn lengths_after(scene: &GestureScene<'_>, script: &StageScript, origins: &ActionOrigins) -> Vec<StageTime> {
+/// Returns the duration of one repetition of each action of a changed script: of a take and of a way by their own attributes, of others as it was.
+fn lengths_after(
+    scene: &GestureScene<'_>,
+    script: &StageScript,
+    origins: &[Option<usize>],
+) -> Vec<StageTime> {
     let length = |action: usize| {
-        let was = origins.0.get(action).copied().flatten().map(|origin| scene.times(origin).once);
-        played(scene, script, action).or(was).unwrap_or_default()
+        let origin = origins[action];
+        let was = || origin.map(|origin| scene.times(origin).once);
+        let gone = || gone(scene, script, action, origin?);
+        played(scene, script, action).or_else(gone).or_else(was).unwrap_or_default()
     };
     (0..script.actions().len()).map(length).collect()
 }
@@ -105,4 +134,14 @@ fn played(scene: &GestureScene<'_>, script: &StageScript, action: usize) -> Opti
     let time = |name: &str| script.time(element, name).map(|time| time.min(length));
     let from = time("from").unwrap_or_default();
     Some((time("to").unwrap_or(length).max(from) - from).over(script.speed(action)))
+}
+
+/// Returns the duration of a way of the same length at another speed; `None` for other actions, and where one of the speeds is not written.
+fn gone(scene: &GestureScene<'_>, script: &StageScript, action: usize, origin: usize) -> Option<StageTime> {
+    let (old, new) = (scene.script.element(origin), script.element(action));
+    if new.row.name != "move" {
+        return None;
+    }
+    let speed = |element: &ScriptElement| Decimal::parse(&element.attribute("speed")?.value);
+    Some(scene.times(origin).once.times(speed(old)?).over(speed(new)?))
 }

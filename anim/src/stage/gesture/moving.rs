@@ -3,7 +3,7 @@
 use super::begin::{ends_with_another, following_end, is_usual, kept_follower, moved_moment};
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
 use super::insert::place_index;
-use super::mixes::{ActionOrigins, mixed, with_children};
+use super::mixes::{ActionOrigins, mixed};
 use super::scene::{Followers, GestureRefusal, GestureScene};
 use crate::stage::script::ActionMoment;
 use crate::stage::splice::{AttachedComments, ElementPlace, move_to};
@@ -60,8 +60,8 @@ pub fn move_clip(
         let draft =
             draft.with(&changes)?.then(|tree| move_to(tree, own.element, place, AttachedComments::Follow))?;
         let origins =
-            ActionOrigins::moved(scene, with_children(scene.script, action), new_index(scene, action, place));
-        return mixed(scene, draft, &origins, scene.lane(action))?.finish();
+            ActionOrigins::moved(scene, scene.script.branch(action), new_index(scene, action, place));
+        return mixed(scene, draft, &origins)?.finish();
     }
     let by = to.max(StageTime::ZERO) - times.begin;
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
@@ -74,13 +74,13 @@ pub fn move_clip(
             changes.extend(kept_follower(scene, action, begin.by));
         }
     }
-    let draft = mixed(scene, draft.with(&changes)?, &ActionOrigins::same(scene), scene.lane(action))?;
+    let draft = mixed(scene, draft.with(&changes)?, &ActionOrigins::same(scene))?;
     draft.finish_with(&scene.lengths(), |changed| scene.keeps_length(action, changed, action))
 }
 
 /// Returns the position among the actions that an action has after it went to a place.
 pub(super) fn new_index(scene: &GestureScene<'_>, action: usize, place: ElementPlace) -> usize {
-    let (own, after) = (with_children(scene.script, action), place_index(scene, place));
+    let (own, after) = (scene.script.branch(action), place_index(scene, place));
     if after > own.start { after.saturating_sub(own.len()) } else { after }
 }
 

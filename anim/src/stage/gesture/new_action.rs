@@ -1,7 +1,8 @@
 //! Actions of the table [`NEW_ACTIONS`](crate::stage::table::NEW_ACTIONS).
 
 use super::draft::{ScriptDraft, keeps_prev};
-use super::insert::{ActionPlace, add_action, check_who, kind_of, place_in_par};
+use super::insert::{ActionPlace, add_action, check_who, kind_of, place_in_par, place_index};
+use super::mixes::{ActionOrigins, mixed};
 use super::scene::{GestureRefusal, GestureScene, NO_PLACE, refused};
 use crate::stage::model::{StageModel, StageTake};
 use crate::stage::splice::{ElementPlace, NewElement, insert};
@@ -102,7 +103,8 @@ pub fn add_new_action(
                 let rate = scene.script.rate();
                 action = action.with("begin", time_text(readable(at - base, rate), rate, ""));
             }
-            ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &action))?.finish()
+            let draft = ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &action))?;
+            mixed(scene, draft, &ActionOrigins::same(scene).with_new(place_index(scene, place)))?.finish()
         }
     }
 }
@@ -120,7 +122,8 @@ pub fn wait_after(scene: &GestureScene<'_>, action: usize) -> Result<String, Ges
     keeps_prev(scene.script, scene.script.next_sibling(action))?;
     let place = ElementPlace::After(scene.script.actions()[action].element);
     let wait = NewElement::new("wait").with("dur", "1");
-    ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &wait))?.finish()
+    let draft = ScriptDraft::of(scene.script).then(|tree| insert(tree, place, &wait))?;
+    mixed(scene, draft, &ActionOrigins::same(scene).with_new(place_index(scene, place)))?.finish()
 }
 
 /// Returns how an action names a thing: to look at a figure is to look at its head.

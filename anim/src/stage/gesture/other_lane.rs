@@ -3,7 +3,7 @@
 use super::begin::ends_with_another;
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
 use super::insert::{ActionPlace, check_who, place_in_par};
-use super::mixes::{ActionOrigins, mixed, with_children};
+use super::mixes::{ActionOrigins, mixed};
 use super::moving::new_index;
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
 use super::several::outermost;
@@ -51,20 +51,18 @@ pub fn move_to_lane(
         let by = super::begin::usual_begin(scene, action) - times.end;
         changes.extend(super::begin::kept_follower(scene, action, by));
     }
-    let lanes = [element.value("who"), Some(onto)].into_iter().flatten();
-    let origins =
-        ActionOrigins::moved(scene, with_children(scene.script, action), new_index(scene, action, place));
+    let origins = ActionOrigins::moved(scene, scene.script.branch(action), new_index(scene, action, place));
     let draft = ScriptDraft::of(scene.script)
         .with(&changes)?
         .then(|tree| move_to(tree, own.element, place, AttachedComments::Follow))?;
-    mixed(scene, draft, &origins, lanes)?.finish()
+    mixed(scene, draft, &origins)?.finish()
 }
 
-/// Gives actions to the thing `onto`, each of them moved by the same time; the first one begins at zero at the earliest.
+/// Gives one selected action to the thing `onto`, moved by a time; it begins at zero at the earliest. What is selected inside of it goes with it.
 ///
 /// # Errors
 ///
-/// As [`move_to_lane`], for each of them; then none is moved.
+/// As [`move_to_lane`]; and where several actions are selected, because only one at a time goes to another lane.
 pub fn move_clips_to_lane(
     scene: &GestureScene<'_>,
     actions: &[usize],

@@ -2,6 +2,7 @@
 
 use super::begin::{ends_with_another, is_usual, kept_follower, moved_moment, usual_begin, written_out};
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
+use super::mixes::{ActionOrigins, mixed};
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
 use crate::stage::splice::{AttachedComments, delete, duplicate, named};
 use crate::stage::time::StageTime;
@@ -27,7 +28,8 @@ pub fn delete_clip(
         let by = usual_begin(scene, action) - times.end;
         draft = draft.with(kept_follower(scene, action, by).as_slice())?;
     }
-    draft.then(|tree| delete(tree, own.element, AttachedComments::Stay))?.finish()
+    let draft = draft.then(|tree| delete(tree, own.element, AttachedComments::Stay))?;
+    mixed(scene, draft, &ActionOrigins::without(scene, &[action]))?.finish()
 }
 
 /// Returns the title of an element that refers to an id inside one of `elements` from outside of all of them.
@@ -87,8 +89,7 @@ pub fn duplicate_clip(scene: &GestureScene<'_>, action: usize) -> Result<String,
     let mut lengths = scene.lengths();
     let copied = lengths[action..copy].to_vec();
     lengths.splice(copy..copy, copied);
-    ScriptDraft::of(scene.script)
-        .then(|tree| duplicate(tree, own.element))?
-        .with(&changes)?
+    let draft = ScriptDraft::of(scene.script).then(|tree| duplicate(tree, own.element))?.with(&changes)?;
+    mixed(scene, draft, &ActionOrigins::copied(scene, action))?
         .finish_with(&lengths, |changed| scene.keeps_length(action, changed, copy))
 }

@@ -97,11 +97,6 @@ impl<'a> GestureScene<'a> {
         self.schedule().times().get(action).copied().unwrap_or_default()
     }
 
-    /// Returns the thing that an action moves; none for containers, and actions without one.
-    pub(super) fn lane(&self, action: usize) -> Option<&'a str> {
-        self.script.element(action).value("who")
-    }
-
     /// Returns the duration of one repetition of each action.
     pub(super) fn lengths(&self) -> Vec<StageTime> {
         self.schedule().times().iter().map(|times| times.once).collect()

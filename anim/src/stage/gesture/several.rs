@@ -2,19 +2,17 @@
 
 use super::begin::{ends_with_another, following_end, kept_follower, moved_moment, usual_begin};
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
-use super::mixes::{ActionOrigins, mixed, with_children};
+use super::mixes::{ActionOrigins, mixed};
 use super::moving::{SequenceOrder, move_clip};
 use super::removal::{delete_clip, user_of};
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
 use crate::stage::schedule::resolve;
 use crate::stage::splice::{AttachedComments, TextSplices, delete};
-use crate::stage::time::{StageTime, TICKS_PER_SECOND};
+use crate::stage::time::{MILLISECOND, StageTime};
 use std::borrow::Cow;
 
 /// Number of times that begins are corrected which depend on others that move too.
 const MOST_ROUNDS: usize = 3;
-/// Distance from its new time at which a clip is there: begins are written in whole milliseconds.
-const NEAR: i64 = TICKS_PER_SECOND / 1000;
 
 /// Moves actions by the same time; the first one begins at zero at the earliest. Several of them keep their order in a `seq`, and one is moved
 /// as by [`move_clip`].
@@ -52,7 +50,8 @@ pub fn move_clips(
         let mut is_done = true;
         for &(action, target) in &targets {
             let rest = target - schedule.times().get(action).copied().unwrap_or_default().begin;
-            if rest.ticks().abs() < NEAR {
+            // As near as begins are written.
+            if rest.ticks().abs() < MILLISECOND.ticks() {
                 continue;
             }
             is_done = false;
@@ -70,8 +69,7 @@ pub fn move_clips(
         }
     }
     let draft = ScriptDraft::of(scene.script).becoming(&script);
-    let lanes = actions.iter().filter_map(|&action| scene.lane(action));
-    let draft = mixed(scene, draft, &ActionOrigins::same(scene), lanes)?;
+    let draft = mixed(scene, draft, &ActionOrigins::same(scene))?;
     draft.finish_with(&lengths, |changed| {
         actions.iter().try_for_each(|&action| scene.keeps_length(action, changed, action))
     })
@@ -111,14 +109,12 @@ pub fn delete_clips(
             kept.extend(kept_follower(scene, action, by));
         }
     }
-    ScriptDraft::of(scene.script)
-        .with(&kept)?
-        .then(|tree| {
-            let parts: Option<Vec<TextSplices>> =
-                elements.iter().map(|&element| delete(tree, element, AttachedComments::Stay)).collect();
-            TextSplices::joined(parts?)
-        })?
-        .finish()
+    let draft = ScriptDraft::of(scene.script).with(&kept)?.then(|tree| {
+        let parts: Option<Vec<TextSplices>> =
+            elements.iter().map(|&element| delete(tree, element, AttachedComments::Stay)).collect();
+        TextSplices::joined(parts?)
+    })?;
+    mixed(scene, draft, &ActionOrigins::without(scene, &actions))?.finish()
 }
 
 /// Returns the actions in the order of the text, each once, without those inside of others.
@@ -132,7 +128,7 @@ pub(super) fn outermost(scene: &GestureScene<'_>, actions: &[usize]) -> Result<V
     let (mut outer, mut end): (Vec<usize>, usize) = (Vec::new(), 0);
     for action in sorted {
         if action >= end {
-            end = with_children(scene.script, action).end;
+            end = scene.script.branch(action).end;
             outer.push(action);
         }
     }

@@ -51,7 +51,7 @@ pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Res
         }
     }
     let draft = ScriptDraft::of(scene.script).with(&changes)?;
-    mixed(scene, draft, &ActionOrigins::same(scene), scene.lane(action))?.finish()
+    mixed(scene, draft, &ActionOrigins::same(scene))?.finish()
 }
 
 /// Returns the change of the part of a take whose play begins `by` later.
@@ -119,7 +119,7 @@ pub fn trim_end(
         changes.extend(kept_follower(scene, action, by));
     }
     let draft = ScriptDraft::of(scene.script).with(&changes)?;
-    mixed(scene, draft, &ActionOrigins::same(scene), scene.lane(action))?.finish()
+    mixed(scene, draft, &ActionOrigins::same(scene))?.finish()
 }
 
 /// Returns the change with which a play lasts for `length`, and how long it then lasts.

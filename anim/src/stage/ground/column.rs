@@ -5,6 +5,9 @@ use glam::DVec3;
 /// Height over ground that a ceiling leaves at least, meters.
 pub(super) const ROOM: f64 = 0.5;
 
+/// Distance of heights, meters, up to which they count as the same.
+pub(super) const TOUCH: f64 = 1e-4;
+
 /// Number of surfaces over each other that count, from the top.
 const MOST: usize = 32;
 
@@ -31,7 +34,9 @@ impl GroundColumn {
         Self { surfaces: [none; MOST], count: 0 }
     }
 
-    /// Adds a surface; of too many, the lowest is left out. The result does not depend on the order.
+    /// Adds a surface; of too many, the lowest is left out. Of those at the same height that face the same way, such as the triangles around the tip of
+    /// a fan, the first by their order is there once. The result does not depend on the order in which they are added, unless many are that near to each
+    /// other.
     pub(super) fn add(&mut self, surface: GroundSurface) {
         let is_over = |other: &GroundSurface| {
             let height = other.height.total_cmp(&surface.height);
@@ -41,6 +46,16 @@ impl GroundColumn {
                 .then_with(|| normal().unwrap_or(std::cmp::Ordering::Equal))
                 .is_ge()
         };
+        let is_same = |other: &GroundSurface| {
+            other.faces_up == surface.faces_up && (other.height - surface.height).abs() <= TOUCH
+        };
+        if let Some(same) = self.surfaces[..self.count].iter().position(is_same) {
+            if is_over(&self.surfaces[same]) {
+                return;
+            }
+            self.surfaces[same..self.count].rotate_left(1);
+            self.count -= 1;
+        }
         let at = self.surfaces[..self.count].partition_point(is_over);
         if at < MOST {
             self.count = (self.count + 1).min(MOST);

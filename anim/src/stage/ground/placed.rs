@@ -1,13 +1,10 @@
 //! The ground props of a scene.
 
-use super::column::{GroundColumn, GroundSurface};
+use super::column::{GroundColumn, GroundSurface, TOUCH};
 use super::mesh::GroundMesh;
 use glam::swizzles::Vec3Swizzles;
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
-
-/// Height above a point, meters, up to which a surface counts as below it.
-const TOUCH: f64 = 1e-4;
 
 /// A ground prop at its place.
 #[derive(Clone, Debug)]

@@ -2,11 +2,8 @@
 
 use crate::stage::schedule::ActionTimes;
 use crate::stage::script::{ScriptElement, StageScript};
-use crate::stage::time::{StageTime, TICKS_PER_SECOND};
+use crate::stage::time::{MILLISECOND, StageTime};
 use std::collections::HashMap;
-
-/// Longest overlap that counts as none: begins are written in whole milliseconds.
-const SAME: StageTime = StageTime::from_ticks(TICKS_PER_SECOND / 1000);
 
 /// How a clip takes over from the one before it in its lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +36,7 @@ impl ClipOverlap {
 
 /// Returns whether two times are the same up to the precision with which scripts are written.
 pub(in crate::stage) fn is_same(one: StageTime, other: StageTime) -> bool {
-    (one - other).ticks().abs() <= 2 * SAME.ticks()
+    (one - other).ticks().abs() <= 2 * MILLISECOND.ticks()
 }
 
 /// Returns whether an element decides over the whole body of its thing, or over its place.
@@ -51,20 +48,14 @@ pub(super) fn is_main(element: &ScriptElement) -> bool {
     }
 }
 
-/// Returns the clips that begin while the one before them is still on, for each action that has one: those of the thing `who`, or of all things.
+/// Returns the clips that begin while the one before them is still on, for each action that has one, in the lanes of all things.
 ///
 /// The one before a clip is the last one that began earlier and decides over the same: a take over the pose, a way without a take over the
 /// place only.
-pub(in crate::stage) fn overlaps(
-    script: &StageScript,
-    times: &[ActionTimes],
-    who: Option<&str>,
-) -> Vec<ClipOverlap> {
+pub(in crate::stage) fn overlaps(script: &StageScript, times: &[ActionTimes]) -> Vec<ClipOverlap> {
     let is_clip = |&action: &usize| {
         let element = script.element(action);
-        matches!(element.row.name, "play" | "move")
-            && is_main(element)
-            && who.is_none_or(|who| element.value("who") == Some(who))
+        matches!(element.row.name, "play" | "move") && is_main(element)
     };
     let mut clips: Vec<usize> = (1..script.actions().len().min(times.len())).filter(is_clip).collect();
     clips.sort_by_key(|&action| (times[action].begin, action));
@@ -76,8 +67,8 @@ pub(in crate::stage) fn overlaps(
         let poses = element.value("take").is_some();
         let name = element.value("who").unwrap_or_default();
         let last = before.get(&(name, poses)).copied();
-        if let Some(until) = last.filter(|&last| last > own.begin + SAME) {
-            let is_inside = own.stop <= until || own.stop <= own.begin + SAME;
+        if let Some(until) = last.filter(|&last| last > own.begin + MILLISECOND) {
+            let is_inside = own.stop <= until || own.stop <= own.begin + MILLISECOND;
             found.push(ClipOverlap { action, until: until.min(own.stop), is_inside });
         }
         before.insert((name, poses), own.stop);
@@ -96,5 +87,5 @@ pub(super) fn takeovers(script: &StageScript, times: &[ActionTimes]) -> HashMap<
         };
         (overlap.action, takeover)
     };
-    overlaps(script, times, None).into_iter().map(of).collect()
+    overlaps(script, times).into_iter().map(of).collect()
 }

@@ -31,6 +31,8 @@ pub struct StageModel {
     head: Option<BoneIndex>,
     /// The bone above all feet.
     hips: Option<BoneIndex>,
+    /// Mean length of the legs in the rest pose, lengths of the model; 1 without feet.
+    leg: f32,
     /// Rotation of each bone in the rest pose, to-root space.
     rest_rotations: Vec<Quat>,
 }
@@ -59,7 +61,7 @@ impl StageModel {
         let hips = hips_above(skeleton, &feet);
         let head = head.map(|bone| bone as BoneIndex);
         let shapes = StageShapes::new(&model);
-        Self { data: Arc::clone(&model), rig, feet, takes, shapes, head, hips, rest_rotations }
+        Self { data: Arc::clone(&model), rig, feet, takes, shapes, head, hips, leg, rest_rotations }
     }
 
     /// Returns the model.
@@ -104,6 +106,11 @@ impl StageModel {
 
     pub(in crate::stage) fn hips(&self) -> Option<BoneIndex> {
         self.hips
+    }
+
+    /// Returns the mean length of the legs, lengths of the model.
+    pub(in crate::stage) fn leg(&self) -> f32 {
+        self.leg
     }
 
     /// Returns the axis of a bone that points along `direction` of to-root space in the rest pose.

@@ -10,6 +10,7 @@
 
 use super::follow::{PathFollower, PathStride, WayGround};
 use super::places::{MotionKind, PlaceLane};
+use super::thing::PlannedThing;
 use crate::data::Transform;
 use crate::fast::simd::SimdLevel;
 use crate::fast::{FastTwoBone, RootPoses, matrix, to_root, two_bone};
@@ -50,6 +51,14 @@ const LOWERED: f32 = 0.15;
 /// The same on a mesh, where one foot may be much lower than the other.
 const LOWERED_ON_MESH: f32 = 0.4;
 
+/// Largest height over or under a role of ground for its feet, as a part of the length of a leg.
+const REACHED: f64 = 0.5;
+
+/// Returns the height over or under a role of this size that its feet reach, meters.
+fn foot_reach(model: &StageModel, scale: f64) -> f64 {
+    REACHED * f64::from(model.leg()) * scale
+}
+
 /// A walk at a time: the motion, and the share of the pose that its take has.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WalkState {
@@ -70,12 +79,13 @@ pub(super) fn keep_feet(
     let place = &places.cues[walk.cue];
     let MotionKind::Follow(follower) = &place.kind else { return };
     let Some(stride) = &follower.stride else { return };
-    let standing = StandingFeet { places, cue: walk.cue, follower, stride, scale: space.scale };
+    let reach = foot_reach(model, space.scale);
+    let standing = StandingFeet { places, cue: walk.cue, follower, stride, scale: space.scale, reach };
     let phase = follower.phase(walk.time.min(place.stop) - place.begin);
     let mut targets: [Option<StandingTarget>; MOST_FEET] = [None; MOST_FEET];
     for (index, (foot, target)) in model.feet().iter().zip(&mut targets).enumerate() {
         let now = space.to_scene(joint(&state.to_root, foot.bone).as_dvec3());
-        let now = standing.over_ground(space.position.y, now);
+        let now = standing.over_ground(space.position, now);
         *target = standing
             .target(index, phase, now)
             .map(|target| StandingTarget { position: space.to_own(target.position), ..target });
@@ -163,15 +173,17 @@ fn lower_hips(model: &StageModel, hips: u32, lower: f32, state: &mut ThingPose) 
 /// Returns when a foot lands in the motion at `cue` of a thing that follows a path, and where it is then: in the contact of its take `turn` cycles after the
 /// start, at the height of the ground. `None` where the motion is another one, or ends before.
 pub(super) fn landing(
-    places: &PlaceLane,
-    (cue, scale): (usize, f64),
+    thing: &PlannedThing,
+    cue: usize,
     contact: &FootContact,
     turn: u32,
 ) -> Option<(StageTime, DVec3)> {
+    let (places, scale) = (&thing.places, thing.scale);
     let place = places.cues.get(cue)?;
     let MotionKind::Follow(follower) = &place.kind else { return None };
     let stride = follower.stride.as_ref()?;
-    let standing = StandingFeet { places, cue, follower, stride, scale };
+    let reach = foot_reach(thing.model.as_ref()?, scale);
+    let standing = StandingFeet { places, cue, follower, stride, scale, reach };
     let start = f64::from(turn) * stride.seconds();
     let [from, to] = [contact.from, contact.to].map(|time| start + time.seconds());
     if from > follower.phase(place.stop - place.begin) {
@@ -179,8 +191,8 @@ pub(super) fn landing(
     }
     let begin = place.begin + follower.after_phase(from.max(0.0));
     let position = standing.at(contact, 0.5 * (from + to), start).0;
-    let role = places.by(cue, begin).position.y;
-    let height = standing.ground_under(role, position).map_or(role, |surface| surface.height);
+    let role = places.by(cue, begin).position;
+    let height = standing.ground_under(role, position).map_or(role.y, |surface| surface.height);
     Some((begin, position.with_y(height)))
 }
 
@@ -210,6 +222,8 @@ struct StandingFeet<'a> {
     follower: &'a PathFollower,
     stride: &'a PathStride,
     scale: f64,
+    /// Meters.
+    reach: f64,
 }
 
 impl StandingFeet<'_> {
@@ -247,18 +261,19 @@ impl StandingFeet<'_> {
         }
     }
 
-    /// Returns the ground under a foot of a role at the height `role`; `None` where the way follows no mesh, or none is there.
-    fn ground_under(&self, role: f64, foot: DVec3) -> Option<GroundSurface> {
-        self.mesh()?.nearest(foot.with_y(role))
+    /// Returns the ground under a foot of a role that is at `role`; `None` where the way follows no mesh, or none is there that the foot reaches: a
+    /// foot beyond an edge does not go to the floor far below. On a slope of 45 degrees it reaches any distance.
+    fn ground_under(&self, role: DVec3, foot: DVec3) -> Option<GroundSurface> {
+        let across = (foot - role).with_y(0.0).length();
+        let is_near = |ground: &GroundSurface| (ground.height - role.y).abs() <= self.reach + across;
+        self.mesh()?.nearest(foot.with_y(role.y)).filter(is_near)
     }
 
-    /// Returns the position of a foot with the height over the ground that it has over the role, whose height is `role`.
-    fn over_ground(&self, role: f64, foot: DVec3) -> DVec3 {
-        if self.mesh().is_none() {
-            return foot;
-        }
-        let ground = self.ground_under(role, foot).map_or(0.0, |surface| surface.height);
-        foot.with_y(ground + foot.y - role)
+    /// Returns the position of a foot with the height over the ground that it has over the role, which is at `role`. Where there is no ground for it, that is
+    /// its height already.
+    fn over_ground(&self, role: DVec3, foot: DVec3) -> DVec3 {
+        let ground = self.ground_under(role, foot).map_or(role.y, |surface| surface.height);
+        foot.with_y(foot.y + (ground - role.y))
     }
 
     /// Returns where a foot is during a contact, and how it leans there.
@@ -271,9 +286,9 @@ impl StandingFeet<'_> {
         (position.with_y(ground.height + height), lean)
     }
 
-    /// Returns the position in the scene that a foot in contact has by the take alone at the time `phase` of it, over the ground, and the height of the role
+    /// Returns the position in the scene that a foot in contact has by the take alone at the time `phase` of it, over the ground, and that of the role
     /// then.
-    fn at(&self, contact: &FootContact, phase: f64, start: f64) -> (DVec3, f64) {
+    fn at(&self, contact: &FootContact, phase: f64, start: f64) -> (DVec3, DVec3) {
         let last = if self.follower.is_endless { f64::INFINITY } else { self.follower.phase_end };
         let phase = phase.max(0.0).min(last);
         let (from, to) = (contact.from.seconds(), contact.to.seconds());
@@ -284,7 +299,7 @@ impl StandingFeet<'_> {
         let placement =
             self.places.by(self.cue, (cue.begin + self.follower.after_phase(phase)).min(cue.stop));
         let (role, foot) =
-            (placement.position.y, placement.position + placement.rotation() * (local * self.scale));
+            (placement.position, placement.position + placement.rotation() * (local * self.scale));
         (self.over_ground(role, foot), role)
     }
 }

@@ -53,8 +53,7 @@ impl StagePlan {
         let Some((planned, stride)) = self.stride(walk) else { return Vec::new() };
         let mut found = Vec::new();
         for contact in stride.take().contacts() {
-            let landings =
-                (0..).map_while(|turn| landing(&planned.places, (walk.cue, planned.scale), contact, turn));
+            let landings = (0..).map_while(|turn| landing(planned, walk.cue, contact, turn));
             found.extend(landings.take(MOST).map(|(time, position)| Footprint {
                 foot: contact.foot,
                 time,

@@ -5,11 +5,9 @@
 
 use super::places::PlaceLane;
 use super::poses::{PoseLane, take_time};
+use crate::fast::WHOLE;
 use crate::stage::model::StageModel;
 use crate::stage::time::StageTime;
-
-/// Sum of shares from which nothing is left for what is below: the remainder is rounding, as in [`crate::fast::blend`].
-const WHOLE: f32 = 1.0 - 1e-6;
 
 /// Writes the weights of the shape keys of a role at `time`. `scratch` is not shorter than `out`. Allocates nothing.
 pub(super) fn shape_role(

@@ -1,7 +1,7 @@
 //! The origins of the elements of a script: its text, its project, or a file that it includes.
 //!
-//! Elements of included files have ranges too: bytes after the end of the text, file after file. So what reports an error at a range
-//! need not know where that is, and a splice of the text at such a range finds no bytes there.
+//! Elements of included files have ranges too: bytes after the end of the text, file after file; those of a project have bytes far after all of these. So what
+//! reports an error at a range need not know where that is, and a splice of the text at such a range finds no bytes there.
 
 use super::error::ScriptError;
 use super::text_place::{LineIndex, TextPlace};
@@ -19,7 +19,7 @@ pub enum ElementOrigin {
     /// In the text of the script.
     #[default]
     Text,
-    /// In the cast of the project that the script belongs to. Its bytes are the end of the script's text then.
+    /// In the cast of the project that the script belongs to. Its bytes are those of the project's text, moved beyond all texts.
     Project,
     /// In an included file: the number of the included part. Its bytes are after the end of the script's text then.
     Included(usize),

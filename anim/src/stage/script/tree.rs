@@ -153,10 +153,10 @@ impl ScriptTree {
         self.parts.iter().map(|part| &*part.file).collect()
     }
 
-    /// Returns the innermost element that contains the byte at `at`: the one at the caret of an editor.
+    /// Returns the innermost element of the text itself that contains the byte at `at`: the one at the caret of an editor.
     pub fn element_at(&self, at: usize) -> Option<usize> {
         // A later start tag that contains the byte is inside the earlier ones.
-        self.elements.iter().rposition(|element| element.range.contains(&at))
+        self.elements.iter().rposition(|element| element.is_own() && element.range.contains(&at))
     }
 
     /// Returns `<NAME>` of an element, with its id, line and file: `<play id="grab"> (line 31)`, `<play> (line 4 of intro.xml)`.

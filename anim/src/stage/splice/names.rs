@@ -4,6 +4,7 @@ use super::{TextSplice, TextSplices, escaped};
 use crate::stage::script::{ScriptAttribute, ScriptElement, ScriptTree, is_name};
 use crate::stage::table::{ElementGroup, NameReference};
 use std::collections::HashMap;
+use std::fmt;
 
 /// Returns a name that no element has: `base`, without what cannot be in a name, and with a number where it is taken.
 pub fn unique_id(tree: &ScriptTree, base: &str) -> String {
@@ -35,26 +36,71 @@ pub fn is_used(tree: &ScriptTree, id: &str) -> bool {
         .any(|attribute| named(attribute) == Some(id))
 }
 
+/// The reason why an element gets no other id.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RenameRefusal {
+    /// There is no such element in the text, or it has no id.
+    Nothing,
+    /// This id is no name, or another element has it.
+    NoName(String),
+    /// The thing with this id is also in the cast of this included file, or of the project for `None`: there it would keep its name, and be another thing.
+    Shared(String, Option<String>),
+}
+
+impl fmt::Display for RenameRefusal {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nothing => out.write_str("There is no name to change"),
+            Self::NoName(id) => write!(
+                out,
+                "\"{id}\" cannot be a name here: it is used already, or has other characters than letters, digits, _ and -"
+            ),
+            Self::Shared(id, Some(file)) => {
+                write!(out, "\"{id}\" is also in the cast of {file}, and would be another thing there")
+            }
+            Self::Shared(id, None) => {
+                write!(out, "\"{id}\" is also in the cast of the project, and would be another thing there")
+            }
+        }
+    }
+}
+
+impl std::error::Error for RenameRefusal {}
+
 /// Gives an element another id, and changes all references to it.
 ///
-/// `None` where there is no such element in the text, where it has no id, and for an id that is no name or that another element has.
-pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Option<TextSplices> {
-    let own = tree.own(element)?.attribute("id")?;
+/// # Errors
+///
+/// There is no such element in the text, it has no id, the new one is no name or another element has it, or the thing is also one of another text: of
+/// an included file or of the project.
+pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Result<TextSplices, RenameRefusal> {
+    let named = tree.own(element).and_then(|element| Some((element.row.group, element.attribute("id")?)));
+    let Some((group, own)) = named else { return Err(RenameRefusal::Nothing) };
     if &*own.value == id {
-        return Some(TextSplices::default());
+        return Ok(TextSplices::default());
+    }
+    let is_thing = |element: &ScriptElement| element.row.group == ElementGroup::Thing;
+    let shares = |other: &&ScriptElement| {
+        group == ElementGroup::Thing
+            && !other.is_own()
+            && is_thing(other)
+            && other.value("id") == Some(&*own.value)
+    };
+    if let Some(other) = tree.elements().iter().find(shares) {
+        let file = tree.file_of(other).map(str::to_owned);
+        return Err(RenameRefusal::Shared(own.value.to_string(), file));
     }
     // The actions of included files have names of their own.
-    let counts =
-        |element: &&ScriptElement| !element.is_included() || element.row.group == ElementGroup::Thing;
+    let counts = |element: &&ScriptElement| !element.is_included() || is_thing(element);
     let is_taken = tree.elements().iter().filter(counts).any(|element| element.value("id") == Some(id));
     if is_taken || id == "prev" || !is_name(id) {
-        return None;
+        return Err(RenameRefusal::NoName(id.to_owned()));
     }
     let names = HashMap::from([(&*own.value, id.to_owned())]);
     let written = tree.elements().iter().filter(|element| element.is_own());
     let attributes = written.flat_map(|element| &element.attributes);
     let text = tree.text();
-    Some(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
+    Ok(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
 }
 
 /// Returns the text of an element in which every id is a new one.

@@ -30,6 +30,11 @@ impl ValueRow {
         Self { expected: "one of the listed words", pattern: "", choices, is_valid: |_, _| true }
     }
 
+    /// Returns whether such a value is a time or a moment, which may be written in frames.
+    pub fn has_frames(&self) -> bool {
+        [TIME_PATTERN, MOMENT_PATTERN].contains(&self.pattern)
+    }
+
     /// Returns whether `text` is such a value.
     pub fn accepts(&self, text: &str, rate: StageRate) -> bool {
         (self.choices.is_empty() || self.choices.contains(&text)) && (self.is_valid)(text, rate)

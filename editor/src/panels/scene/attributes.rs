@@ -263,7 +263,9 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         }
         let splices = match value {
             "" => remove_attribute(tree, element, row.name),
-            name if is_name => rename(tree, element, name),
+            name if is_name => {
+                Some(rename(tree, element, name).map_err(|refusal| refused(refusal.to_string()))?)
+            }
             value => set_attribute(tree, element, row.name, value),
         };
         let text = splices.map(|splices| splices.apply(tree.text()));

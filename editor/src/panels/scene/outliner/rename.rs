@@ -6,7 +6,7 @@ use crate::panels::request::Request;
 use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
 use crate::panels::style::ROW;
 use dragonfly_anim::stage::gesture::in_this_text;
-use dragonfly_anim::stage::splice::rename;
+use dragonfly_anim::stage::splice::{RenameRefusal, rename};
 use dragonfly_document::edit::ScriptLabel;
 use egui::{Rect, Sense, TextStyle, Ui, pos2, vec2};
 
@@ -58,15 +58,13 @@ fn renamed(context: &PanelContext<'_>, thing: &str, name: &str) -> SceneRequest 
     if let Some(Err(refusal)) = element.map(|element| in_this_text(tree, element)) {
         return SceneRequest::Refused(refusal.to_string());
     }
-    match element.and_then(|element| rename(tree, element, name)) {
-        Some(splices) => SceneRequest::Text(ScriptChange {
+    match element.map_or(Err(RenameRefusal::Nothing), |element| rename(tree, element, name)) {
+        Ok(splices) => SceneRequest::Text(ScriptChange {
             from: std::sync::Arc::clone(tree.text()),
             text: splices.apply(tree.text()),
             label: ScriptLabel::Rename,
             gesture: None,
         }),
-        None => SceneRequest::Refused(format!(
-            "\"{name}\" cannot be a name here: it is used already, or has other characters than letters, digits, _ and -"
-        )),
+        Err(refusal) => SceneRequest::Refused(refusal.to_string()),
     }
 }
