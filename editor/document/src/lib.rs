@@ -19,6 +19,8 @@ mod beside;
 mod bone_map;
 pub mod bones;
 mod cancel;
+mod checked_models;
+mod checked_sounds;
 mod checking;
 mod clip_import;
 mod clip_news;
