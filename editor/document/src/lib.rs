@@ -128,7 +128,7 @@ pub use scene_check::{CheckedText, check_scene};
 pub use scene_source::{LoadedScene, SceneLoadError, load_scene};
 pub use scene_view::{SceneModel, SceneView};
 pub use shapes::{ModelShapes, ShapeMesh};
-pub use sound::{SoundPeaks, SoundSource};
+pub use sound::{SoundPeaks, SoundSource, SoundStamp};
 pub use source::{LoadError, Source};
 pub use step_amount::{PoseChange, StepAmount};
 pub use take_check::{CheckedTake, TakeCheck};
