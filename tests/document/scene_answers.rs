@@ -110,11 +110,11 @@ fn sounds_are_looked_at_for_errors_only_and_a_hundred_that_are_missing_are_enoug
     let script = |inner: &str| format!("<script version=\"1\">\n{inner}</script>\n");
     fs::write(&path, script(&sounds(150))).expect("a file");
     assert_eq!(messages(&errors(&path)["errors"]).len(), 100);
-    let wrong = sounds(1) + "  <play who=\"nobody\" take=\"Walk\"/>\n";
-    fs::write(&path, script(&wrong)).expect("a file");
+    let cast = "  <cast><prop id=\"cup\" model=\"cup.glb\"/></cast>\n".to_owned();
+    fs::write(&path, script(&(cast + &sounds(1)))).expect("a file");
     let mut session = session(&path);
     let refused = answer(&mut session, "schedule")["error"].as_str().expect("a reason").to_owned();
-    assert!(refused.contains("nobody") && !refused.contains("gone0.wav"), "{refused}");
+    assert!(refused.contains("cup.glb") && !refused.contains("gone0.wav"), "{refused}");
     // The same sound in two places is wrong in both.
     fs::write(&path, script(&sounds(1).repeat(2))).expect("a file");
     let answer = errors(&path);
