@@ -75,5 +75,8 @@ fn the_protocol_lists_what_is_wrong_in_each_text_of_a_project() {
     };
     session.answer(&Value::Object(edit).to_string()).expect("an answer");
     let answer = session.answer(r#"{"query":"errors"}"#).expect("an answer");
-    assert!(answer.contains("no path") || answer.contains("wey") || answer.contains("way"), "{answer}");
+    let answer: Value = serde_json::from_str(&answer).expect("JSON");
+    let error = &answer["ok"]["errors"][0];
+    assert_eq!((&error["line"], &error["column"]), (&7.into(), &25.into()), "{answer}");
+    assert!(error["message"].as_str().is_some_and(|text| text.contains("\"way\"")), "{answer}");
 }

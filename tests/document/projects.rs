@@ -219,6 +219,7 @@ fn a_project_with_errors_is_opened_to_be_corrected_and_a_missing_script_is_repor
     document.edit(replaced(PROJECT, "<models>", "<modles>"));
     let view = document.wait_for_view(|view| view.history.done == 1);
     assert!(!scene_of(&view).project_errors.is_empty() && &*scene_of(&view).text == MAIN);
+    assert!(!scene_of(&view).is_current(), "the newest project does not play");
     let broken = folder.join("broken.meproj");
     fs::write(&broken, "<project version=\"1\"").expect("a file");
     let view = document.open(&broken);

@@ -5,7 +5,7 @@ use super::scenes_kept::restored;
 use dragonfly_document::archive::read_archive;
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{
-    Cancel, DocumentMessage, Editable, PackError, SaveTo, Source, View, load_scene, pack,
+    Cancel, DocumentMessage, Editable, PackError, SaveTo, Source, View, check_scene, load_scene, pack,
 };
 use dragonfly_kit::document::test_document::{TestDocument, copy_after_kill, fox};
 use dragonfly_kit::folder::Folder;
@@ -174,4 +174,65 @@ fn the_protocol_says_in_which_file_an_error_and_an_action_are() {
         (&"parts/intro.xml".into(), &4.into(), &25.into()),
         "{errors}"
     );
+}
+
+#[test]
+fn a_name_that_was_corrected_is_not_read_again_when_the_window_gets_the_focus() {
+    let folder = Folder::new("include-corrected");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&scene(&folder));
+    document.wait_for_view(|view| length(view) == Some(3.0));
+    document.edit(replaced(SCENE, "parts/intro.xml", "parts/intr.xml"));
+    let view = document
+        .wait_for_view(|view| scene_of(view).errors.first().is_some_and(|error| !error.help.is_empty()));
+    document.edit(replaced(&scene_of(&view).text, "parts/intr.xml", "parts/intro.xml"));
+    document.wait_for_view(|view| length(view) == Some(3.0));
+    let before = document.view();
+    document.send(DocumentMessage::LookAtFile);
+    let after = document.view();
+    assert!(std::sync::Arc::ptr_eq(scene_of(&before), scene_of(&after)), "it was planned again");
+}
+
+/// Returns a script that includes `count` files of a folder.
+fn hostile(count: usize) -> String {
+    let includes: String =
+        (0..count).map(|number| format!("  <include src=\"parts/f{number}.xml\"/>\n")).collect();
+    format!("<script version=\"1\">\n{includes}</script>\n")
+}
+
+#[test]
+fn of_many_files_that_are_missing_a_hundred_are_looked_for_and_a_check_of_them_is_cancelled() {
+    let folder = Folder::new("include-many");
+    let path = scene(&folder);
+    fs::write(&path, hostile(150)).expect("a file");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    let view = document.wait_for_view(|view| {
+        let missing = |reason: &str| reason != "is being read";
+        scene_of(view).includes.missing().any(|(_, file)| missing(&file.reason))
+    });
+    let files: Vec<_> = scene_of(&view).includes.missing().collect();
+    let suggested = files.iter().filter(|(_, file)| !file.beside.is_empty()).count();
+    assert_eq!((files.len(), suggested), (150, 100));
+    assert_eq!(scene_of(&view).errors.len(), 100);
+    // Nothing more is read for it.
+    let (before, after) = (document.view(), document.view());
+    assert!(std::sync::Arc::ptr_eq(scene_of(&before), scene_of(&after)));
+    let cancelled = Cancel::default();
+    cancelled.cancel();
+    let error = check_scene(&path, &cancelled).expect_err("it was cancelled");
+    assert_eq!(error.to_string(), "cancelled");
+    assert!(pack(&path, &cancelled).is_err_and(|error| error.to_string() == "cancelled"));
+}
+
+#[test]
+fn the_files_that_are_suggested_for_a_missing_one_are_the_first_in_alphabetical_order() {
+    let folder = Folder::new("include-sorted");
+    let path = scene(&folder);
+    for number in 0..1500 {
+        fs::write(folder.join(&format!("parts/b{number:04}.xml")), MORE).expect("a file");
+    }
+    fs::write(&path, SCENE.replace("intro", "b00")).expect("a file");
+    let error = load_scene(&path, &Cancel::default()).expect_err("it is missing").to_string();
+    assert!(error.contains("did you mean \"parts/b0000.xml\"?"), "{error}");
 }

@@ -98,16 +98,22 @@ fn a_sound_ends_with_its_file_once_its_length_is_known_and_before_that_with_the_
     assert_eq!(stop(&view), Some(2.0), "it may be as long as the scene");
     let read = |folder: &Folder, name: &str| {
         let source = SoundSource::Below { folder: folder.path().to_owned(), name: name.to_owned() };
-        DocumentMessage::SoundRead(source, 0.5)
+        DocumentMessage::SoundsRead(vec![(source, Some(0.5))])
     };
     document.send(read(&Folder::new("scene-sound-other"), "thunder.wav"));
-    document.send(DocumentMessage::SoundRead(SoundSource::File(folder.join("thunder.wav")), 0.5));
+    let file = SoundSource::File(folder.join("thunder.wav"));
+    document.send(DocumentMessage::SoundsRead(vec![(file, Some(0.5))]));
     document.edit(replaced(&scene_of(&view).text, "0.25", "0.5"));
     let view = document.wait_for_view(|view| view.history.done == 1);
     assert_eq!(stop(&view), Some(2.0), "sounds of another folder, and those of a take, are others");
     document.send(read(&folder, "thunder.wav"));
     let view = document.wait_for_view(|view| stop(view) != Some(2.0));
     assert_eq!((stop(&view), view.history.done), (Some(1.5), 1), "half a second, twice");
+    // In another folder there may be another file of this name.
+    let other = Folder::new("scene-sound-moved");
+    document.save(SaveTo::As(other.join("moved.xml")));
+    let view = document.wait_for_view(|view| stop(view) != Some(1.5));
+    assert_eq!(stop(&view), Some(2.0), "its length is not known there");
 }
 
 #[cfg(unix)]

@@ -212,3 +212,14 @@ fn a_sound_that_is_missing_or_no_sound_is_an_error() {
     // It can be shown: it is quiet there.
     run(["pose", text(&path), "--role", "ann", "--time", "0"]).expect(0);
 }
+
+#[test]
+fn an_error_of_an_included_file_names_that_file_and_its_line_and_column() {
+    let (folder, path) = project("project-include");
+    write(&folder, "intro.xml", "<script version=\"1\">\n  <wait dur=\"soon\"/>\n</script>\n");
+    // Each error is listed once, although two scripts include the file.
+    for (name, script) in [("main.xml", MAIN), ("end.xml", END)] {
+        write(&folder, name, &script.replace("</script>", "  <include src=\"intro.xml\"/>\n</script>"));
+    }
+    expect(&path, &[("intro.xml", "2:14", "dur=\"soon\" is not a time")]);
+}

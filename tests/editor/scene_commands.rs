@@ -214,8 +214,8 @@ fn errors_of_an_included_script_are_found_with_its_name_line_and_column() {
     let found = run(["check", text(&path), "--json"]).expect(1).json();
     let row = &found[0]["findings"][0];
     assert_eq!(
-        (&found[0]["file"], &row["place"]),
-        (&"scene.xml".into(), &"intro.xml:10:40".into()),
+        (&found[0]["file"], &row["file"], &row["place"]),
+        (&"scene.xml".into(), &"intro.xml".into(), &"10:40".into()),
         "{found}"
     );
     assert!(

@@ -120,8 +120,10 @@ fn a_sound_that_is_a_pipe_or_outside_of_the_folder_is_refused_and_the_others_are
     move_to(&mut bench, &folder);
     let (_thread, address, answers) = forwarding();
     let messages = read_all(&mut SceneSoundLoader::default(), &mut bench.state, (&address, &answers));
-    let thunder = SoundSource::Below { folder: folder.path().to_owned(), name: "thunder.wav".to_owned() };
-    assert_eq!(messages, [DocumentMessage::SoundRead(thunder, 0.5)], "the document is sent the length");
+    let below = |name: &str| SoundSource::Below { folder: folder.path().to_owned(), name: name.to_owned() };
+    let lengths = [("pipe.wav", None), ("link.wav", None), ("thunder.wav", Some(0.5))];
+    let lengths = lengths.map(|(name, seconds)| (below(name), seconds)).to_vec();
+    assert_eq!(messages, [DocumentMessage::SoundsRead(lengths)], "the document is sent all lengths at once");
     let known = |name: &str| known(&bench.state, name);
     assert_eq!(known("pipe.wav"), "pipe.wav is a pipe, not a regular file");
     assert_eq!(known("link.wav"), "link.wav leads out of the model's folder");
@@ -174,16 +176,55 @@ fn a_sound_that_could_not_be_read_is_read_again_when_its_file_may_be_there() {
     assert_eq!(known(&bench.state, "thunder.wav"), "thunder.wav does not exist");
     write_thunder(&folder.join("thunder.wav"));
     // As the program does when its window is used again.
-    bench.state.scene_sounds().forget_problems();
+    bench.state.scene_sounds().look_again();
     read_all(&mut loader, &mut bench.state, (&address, &answers));
     assert_eq!(known(&bench.state, "thunder.wav"), "read");
     bench.state.scene_sounds().receive("thunder.wav", Err("damaged".to_owned()));
-    bench.state.scene_sounds().forget_problems();
+    bench.state.scene_sounds().look_again();
     // No job is started for a thread that has ended.
     drop(thread);
     loader.update(&mut bench.state, &address);
     let reason = known(&bench.state, "thunder.wav");
     assert!(reason.starts_with("thunder.wav: ") && reason.contains("stopped"), "{reason}");
+}
+
+#[test]
+fn a_sound_is_read_again_when_its_file_changed_or_the_scene_is_in_another_folder() {
+    let (folder, other) = (Folder::new("scene-changed"), Folder::new("scene-moved"));
+    let mut bench = scene(&FOXES.replace("    <title", "    <sound src=\"thunder.wav\"/>\n    <title"));
+    move_to(&mut bench, &folder);
+    let path = folder.join("thunder.wav");
+    write_thunder(&path);
+    let (_thread, address, answers) = forwarding();
+    let mut loader = SceneSoundLoader::default();
+    let mut again = |state: &mut State| {
+        state.scene_sounds().look_again();
+        loader.update(state, &address);
+        let answer = answers.recv_timeout(LIMIT).expect("the sound is looked at");
+        loader.receive(state, answer)
+    };
+    let length = |folder: &Folder, seconds: Option<f64>| {
+        let source = SoundSource::Below { folder: folder.path().to_owned(), name: "thunder.wav".to_owned() };
+        Some(DocumentMessage::SoundsRead(vec![(source, seconds)]))
+    };
+    assert_eq!(again(&mut bench.state), length(&folder, Some(0.5)));
+    assert_eq!(again(&mut bench.state), None, "the file is as it was");
+    assert_eq!(known(&bench.state, "thunder.wav"), "read");
+    // Another program writes twice as much.
+    let twice = std::fs::read(&path).expect("a sound");
+    let spec = hound::WavReader::new(&*twice).expect("a sound").spec();
+    let mut writer = hound::WavWriter::create(&path, spec).expect("a file");
+    (0..8000).for_each(|_| writer.write_sample(i16::MAX).expect("a sample"));
+    writer.finalize().expect("a file");
+    assert_eq!(again(&mut bench.state), length(&folder, Some(1.0)));
+    std::fs::remove_file(&path).expect("a file");
+    assert_eq!(again(&mut bench.state), length(&folder, None), "its length is not known any more");
+    write_thunder(&other.join("thunder.wav"));
+    move_to(&mut bench, &other);
+    assert_eq!(again(&mut bench.state), length(&other, Some(0.5)));
+    write_thunder(&path);
+    move_to(&mut bench, &folder);
+    assert_eq!(again(&mut bench.state), length(&folder, Some(0.5)), "what was read elsewhere does not count");
 }
 
 #[test]

@@ -69,10 +69,10 @@ fn depth(path: &Path, time: &str) -> f64 {
 #[test]
 fn what_begins_at_a_time_has_begun_at_this_time_however_it_is_written() {
     let (_folder, path) = scene("times-exact");
-    for time in ["2.3", "2.3s", "2300ms", "69f", "0:02.3", "2.300000001"] {
+    for time in ["2.3", "2.3s", "2300ms", "69f", "0:02.3", "2.300000001", "23e-1"] {
         assert_eq!(depth(&path, time), 0.0, "{time}");
     }
-    for time in ["2.299999999", "68f", "0:02.299", "1e-3"] {
+    for time in ["2.299999999", "68f", "0:02.299", "1e-3", "-12f", "-0.5s"] {
         assert_eq!(depth(&path, time), -50.0, "{time}");
     }
     assert_eq!((depth(&path, "2.709999999"), depth(&path, "2.71")), (0.0, -50.0));

@@ -7,6 +7,7 @@ use super::edit::Edit;
 use super::job::JobNews;
 use super::message::DocumentReply;
 use super::open::{Change, Open};
+use super::open_scene::OpenScene;
 use super::owner::Document;
 use super::project_edits::{EditedModel, kept_in, made_for};
 use super::project_models::ProjectModels;
@@ -32,41 +33,43 @@ impl Document {
         }
     }
 
-    /// Takes the length of a sound of the open scene, seconds. One that was read for another scene is ignored.
-    pub(super) fn sound_read(&mut self, source: &SoundSource, seconds: f64) {
+    /// Takes the lengths of sounds of the open scene, seconds. Those that were read for another scene are ignored.
+    pub(super) fn sounds_read(&mut self, lengths: &[(SoundSource, Option<f64>)]) {
         let Some(open) = &mut self.open else { return };
-        let (SoundSource::Below { folder, name }, Some(scene)) = (source, &mut open.scene) else { return };
-        let is_here = open.file.path.as_ref().or(open.loaded.path.as_ref()).and_then(|path| path.parent())
-            == Some(folder);
-        if is_here && scene.take_sound(name, StageTime::from_seconds(seconds)) {
+        let Some(scene) = &mut open.scene else { return };
+        let here = open.file.path.as_ref().or(open.loaded.path.as_ref()).and_then(|path| path.parent());
+        let mut any = false;
+        for (source, seconds) in lengths {
+            if let SoundSource::Below { folder, name } = source
+                && here == Some(folder)
+            {
+                any |= scene.take_sound(name, seconds.map(StageTime::from_seconds));
+            }
+        }
+        if any {
             self.changed();
         }
     }
 
     /// Takes a model that was read for the open scene, or for the one that waits.
     pub(super) fn scene_model_read(&mut self, news: SceneModelNews) {
-        if let Some(waiting) = &mut self.scene {
-            if let Some(scene) = &mut waiting.open.scene {
-                scene.take(news);
-            }
-            return;
-        }
-        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
-        if scene.is_some_and(|scene| scene.take(news)) {
-            self.changed();
-        }
+        self.change_scene(|scene| scene.take(news));
     }
 
     /// Takes files that the script of the scene includes.
     pub(super) fn scene_includes_read(&mut self, news: SceneIncludeNews) {
+        self.change_scene(|scene| scene.take_includes(news));
+    }
+
+    /// Gives something to the scene that is open or waits; `change` returns whether the scene changed.
+    fn change_scene(&mut self, change: impl FnOnce(&mut OpenScene) -> bool) {
         if let Some(waiting) = &mut self.scene {
-            if let Some(scene) = &mut waiting.open.scene {
-                scene.take_includes(news);
-            }
+            // It is planned when it is shown again.
+            waiting.open.scene.as_mut().map(change);
             return;
         }
         let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
-        if scene.is_some_and(|scene| scene.take_includes(news)) {
+        if scene.is_some_and(change) {
             self.changed();
         }
     }

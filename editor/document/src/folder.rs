@@ -71,10 +71,9 @@ impl Folder {
         if resolved.starts_with(&self.root) { Ok(resolved) } else { Err(FileAccessError::Outside) }
     }
 
-    /// Returns the names of at most `most` files in the folder of the file `name` that end with `.` and `extension`, in alphabetical order. The
-    /// file itself need not be there.
-    pub(super) fn names_beside(&self, name: &str, extension: &str, most: usize) -> Vec<String> {
-        let inside = name.rsplit_once('/').map_or("", |(folder, _)| folder);
+    /// Returns the names of the first `most` files in the folder `inside` that end with `.` and `extension`, in alphabetical order; an empty
+    /// name means this folder itself. In a folder with more than 100 × `most` files, some are not looked at.
+    pub(super) fn names_in(&self, inside: &str, extension: &str, most: usize) -> Vec<String> {
         let folder = match inside {
             "" => Ok(self.root.clone()),
             inside => self.path_of(inside),
@@ -86,8 +85,9 @@ impl Folder {
             let path = if inside.is_empty() { file } else { format!("{inside}/{file}") };
             (is_one && checked(&path).is_ok()).then_some(path)
         };
-        let mut names: Vec<String> = entries.take(100 * most).filter_map(named).take(most).collect();
+        let mut names: Vec<String> = entries.take(100 * most).filter_map(named).collect();
         names.sort_unstable();
+        names.truncate(most);
         names
     }
 

@@ -52,8 +52,9 @@ pub enum DocumentMessage {
     DecideOutdated(OutdatedEdits, OutdatedEditsChoice),
     /// Shows another script of the open project, by the name of its file.
     ShowScript(String),
-    /// The length in seconds of a sound of the open scene, which was read to be shown: the plan has no other way to know when it ends.
-    SoundRead(SoundSource, f64),
+    /// The lengths in seconds of sounds of the open scene, which were read to be shown: the plan has no other way to know when they end. `None`
+    /// for one that cannot be read any more.
+    SoundsRead(Vec<(SoundSource, Option<f64>)>),
     /// Checks whether another program changed the file.
     LookAtFile,
     /// Searches for unsaved work of earlier sessions, and replies also if there is none.

@@ -10,7 +10,7 @@ use super::scene_lines::SceneLines;
 use super::scene_model_source::SceneModelSource;
 use super::scene_models::{SceneModelNews, SceneModels};
 use super::scene_view::{SceneModel, SceneView};
-use super::text_source::is_project;
+use super::text_source::{first_script, is_project};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{ScriptContext, ScriptError, StageScript};
 use dragonfly_anim::stage::time::StageTime;
@@ -26,7 +26,10 @@ const EMPTY: &str = "<script version=\"1\"/>";
 /// The scene of an open script or project.
 pub(super) struct OpenScene {
     live: LiveStage,
+    /// The models and lines, without the sounds.
     assets: StageAssets,
+    /// The lengths of the sounds that were read, by the texts with which scripts name them.
+    sounds: BTreeMap<String, StageTime>,
     models: SceneModels,
     /// Whether it is a project, and not a script alone.
     is_project: bool,
@@ -50,6 +53,7 @@ impl OpenScene {
         Self {
             live: LiveStage::default(),
             assets,
+            sounds: BTreeMap::new(),
             models: SceneModels::new(Folder::of(path).map_err(|error| error.to_string())),
             is_project: is_project(path),
             project: None,
@@ -92,7 +96,9 @@ impl OpenScene {
             project: project.as_deref().cloned(),
             files: self.includes.files().clone(),
         };
-        self.live.update_in(Arc::clone(&text), &context, &self.assets);
+        let mut assets = self.assets.clone();
+        self.sounds.iter().for_each(|(name, length)| assets.add_sound(name, *length));
+        self.live.update_in(Arc::clone(&text), &context, &assets);
         let models = project.as_deref().map(ProjectModels::of);
         let wanted = self.wanted(models.as_ref(), texts);
         self.models.want(wanted, document);
@@ -136,11 +142,15 @@ impl OpenScene {
         changed
     }
 
-    /// Takes the length of a sound, by the text with which the script names it. Returns whether the scene changed.
-    pub(super) fn take_sound(&mut self, name: &str, length: StageTime) -> bool {
-        let changed = self.assets.sound(name) != Some(length);
+    /// Takes the length of a sound, by the text with which the script names it; `None` where it is not known any more. Returns whether the
+    /// scene changed.
+    pub(super) fn take_sound(&mut self, name: &str, length: Option<StageTime>) -> bool {
+        let old = match length {
+            Some(length) => self.sounds.insert(name.to_owned(), length),
+            None => self.sounds.remove(name),
+        };
+        let changed = old != length;
         if changed {
-            self.assets.add_sound(name, length);
             self.planned = None;
         }
         changed
@@ -161,10 +171,11 @@ impl OpenScene {
         self.planned = None;
     }
 
-    /// Reads the models again from the folder of the script or project, which was saved at `path`.
+    /// Reads the models again from the folder of the script or project, which was saved at `path`. The sounds of another folder may be others.
     pub(super) fn move_to(&mut self, path: &Path) {
         self.models.move_to(Folder::of(path).map_err(|error| error.to_string()));
         self.includes.forget();
+        self.sounds.clear();
         self.planned = None;
     }
 
@@ -200,7 +211,7 @@ impl OpenScene {
         }
         let named = |name: &str| texts.called(name).cloned();
         let chosen = self.chosen.as_deref().and_then(named);
-        let first = || self.project.iter().flat_map(|project| project.scripts()).find_map(named);
+        let first = || first_script(Some(self.project.as_deref()?), texts).cloned();
         // A project without a script has an empty scene.
         chosen.or_else(first).or_else(|| {
             let (name, text) = ("".into(), EMPTY.into());

@@ -60,6 +60,9 @@ pub fn pack(path: &Path, cancel: &Cancel) -> Result<Vec<u8>, PackError> {
     let folder = Folder::of(path).map_err(unread)?;
     let mut needed = NeededFiles { folder: &folder, cancel, names: BTreeSet::new(), reasons: Vec::new() };
     needed.of_texts(&read, is_project(path));
+    if cancel.is_cancelled() {
+        return Err(LoadError::Cancelled.into());
+    }
     let NeededFiles { names, mut reasons, .. } = needed;
     let mut files: Vec<ArchivedFile> = Vec::new();
     for file in read.texts.list() {
@@ -135,7 +138,7 @@ impl NeededFiles<'_> {
 
     fn of_script(&mut self, file: &TextFile, texts: &TextFiles, project: Option<&StageProject>) {
         let TextFile { name, text } = file;
-        let files = read_includes((name, text), texts, Ok(self.folder));
+        let files = read_includes((name, text), texts, Ok(self.folder), self.cancel);
         let context = ScriptContext { name: name.clone(), project: project.cloned(), files };
         match StageScript::read_in(text.clone(), &context) {
             Ok(script) => {

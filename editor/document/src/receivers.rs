@@ -42,7 +42,7 @@ impl Document {
             DocumentMessage::ShowScene => self.show_scene(now),
             DocumentMessage::DecideOutdated(edits, choice) => self.decide_outdated(&edits, choice, now),
             DocumentMessage::ShowScript(name) => self.show_script(&name),
-            DocumentMessage::SoundRead(source, seconds) => self.sound_read(&source, seconds),
+            DocumentMessage::SoundsRead(lengths) => self.sounds_read(&lengths),
             DocumentMessage::LookAtFile => self.look_at_file(),
             DocumentMessage::Search => {
                 self.searched = true;

@@ -48,7 +48,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         DocumentMessage::CancelLoading
         | DocumentMessage::Plan(_)
         | DocumentMessage::ShowScript(_)
-        | DocumentMessage::SoundRead(..)
+        | DocumentMessage::SoundsRead(_)
         | DocumentMessage::Search
         | DocumentMessage::ReadSource(_)
         | DocumentMessage::ReadCompared(_)

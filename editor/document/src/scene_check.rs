@@ -2,23 +2,24 @@
 //! window.
 
 use super::adapter::{TextFile, TextFiles};
+use super::checked_models::{CheckedModel, CheckedModels};
+use super::checked_sounds::CheckedSounds;
 use super::project_models::ProjectModels;
 use super::project_notes::ProjectNotes;
 use super::scene_includes::read_includes;
 use super::scene_lines::SceneLines;
-use super::scene_model_source::{ReadFileState, SceneModelSource};
-use super::sound::SoundSource;
+use super::scene_model_source::SceneModelSource;
 use super::source::LoadError;
-use super::text_source::{is_project, read_texts};
-use super::{Cancel, Folder, LoadedModel};
+use super::text_source::{is_project, read_texts, text_of};
+use super::{Cancel, Folder};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{
-    MOST_BYTES, ScriptContext, ScriptElement, ScriptError, ScriptTree, StageScript,
+    MOST_BYTES, MOST_ERRORS, ScriptContext, ScriptError, ScriptTree, StageScript,
 };
 use dragonfly_anim::stage::{StageAssets, StagePlan};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// A text of a scene, with everything that is wrong in it.
@@ -34,24 +35,18 @@ pub struct CheckedText {
     pub notes: Vec<ScriptError>,
 }
 
-/// A scene that is checked: a script, or a project with its scripts. Models and sounds are read once and kept.
+/// A scene that is checked: a script, or a project with its scripts. Models are read once and kept; what cannot be read is tried once for each
+/// question.
 pub(super) struct SceneCheck {
     is_project: bool,
+    /// The text of the project that was read last, and what it has.
+    project: Option<(Arc<str>, Result<StageProject, Vec<ScriptError>>)>,
     /// The folder of the document; the reason why its files cannot be read where it fails.
     folder: Result<Folder, String>,
-    path: PathBuf,
     assets: StageAssets,
     lines: SceneLines,
-    models: BTreeMap<String, CheckedModel>,
-    /// The sounds that can be read.
-    sounds: BTreeSet<String>,
-}
-
-/// A model that was read.
-pub(super) struct CheckedModel {
-    pub(super) source: SceneModelSource,
-    pub(super) loaded: Arc<LoadedModel>,
-    pub(super) state: ReadFileState,
+    models: CheckedModels,
+    sounds: CheckedSounds,
 }
 
 /// A script that was checked.
@@ -63,7 +58,7 @@ pub(super) struct CheckedScript {
     pub(super) shared: Vec<ScriptError>,
     /// The script, if it can be read.
     pub(super) script: Option<StageScript>,
-    /// Its plan, if nothing but a sound is wrong.
+    /// Its plan, if nothing is wrong; sounds do not matter for it.
     pub(super) plan: Option<StagePlan>,
 }
 
@@ -87,12 +82,12 @@ impl SceneCheck {
         assets.allow_missing_models();
         Self {
             is_project: path.is_some_and(is_project),
+            project: None,
             folder,
-            path: path.and_then(Path::parent).map(Path::to_owned).unwrap_or_default(),
             assets,
             lines: SceneLines::default(),
-            models: BTreeMap::new(),
-            sounds: BTreeSet::new(),
+            models: CheckedModels::default(),
+            sounds: CheckedSounds::new(path.and_then(Path::parent)),
         }
     }
 
@@ -101,33 +96,46 @@ impl SceneCheck {
         self.is_project
     }
 
-    /// Returns the models that were read, by the names that scripts give them.
-    pub(super) fn models(&self) -> &BTreeMap<String, CheckedModel> {
-        &self.models
+    /// Returns the project, which is read when its text is another one; `None` for a script alone.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with it.
+    pub(super) fn project(&mut self, texts: &TextFiles) -> Result<Option<StageProject>, Vec<ScriptError>> {
+        let Some(main) = texts.main().filter(|_| self.is_project) else { return Ok(None) };
+        let known = self.project.take().filter(|(text, _)| text == main);
+        let read = || (Arc::clone(main), StageProject::read(Arc::clone(main)));
+        self.project.insert(known.unwrap_or_else(read)).1.clone().map(Some)
     }
 
-    /// Checks all texts: that of a project first, then its scripts and its lines.
+    /// Returns the models that were read, by the names that scripts give them.
+    pub(super) fn models(&self) -> &BTreeMap<String, CheckedModel> {
+        self.models.read()
+    }
+
+    /// Checks all texts with their sounds: that of a project first, then its scripts and its lines. Each has at most [`MOST_ERRORS`].
     ///
     /// # Errors
     ///
     /// It was cancelled.
     pub(super) fn all(&mut self, texts: &TextFiles, cancel: &Cancel) -> Result<Vec<CheckedText>, LoadError> {
         let Some(main) = texts.list().first() else { return Ok(Vec::new()) };
-        if !self.is_project {
-            return Ok(vec![self.script(main, None, texts, cancel)?.text]);
-        }
+        self.begin();
         let mut own = CheckedText { name: Arc::clone(&main.name), ..CheckedText::default() };
-        let project = match StageProject::read(Arc::clone(&main.text)) {
-            Ok(project) => project,
+        let project = match self.project(texts) {
+            Ok(Some(project)) => project,
+            Ok(None) => return Ok(vec![self.with_sounds(main, None, texts, cancel)?.text]),
             Err(errors) => return Ok(vec![CheckedText { errors, ..own }]),
         };
         self.missing_texts(&project, texts, &mut own.errors);
+        // Also where no script can be read.
+        self.lines.update(Some(&project), texts, &mut self.assets);
         let mut checked = Vec::new();
         for file in project.scripts().filter_map(|name| texts.called(name)) {
             if checked.iter().any(|other: &CheckedText| other.name == file.name) {
                 continue;
             }
-            let script = self.script(file, Some(&project), texts, cancel)?;
+            let script = self.with_sounds(file, Some(&project), texts, cancel)?;
             for error in script.shared {
                 // Each script finds the same errors of the shared cast.
                 if !own.errors.contains(&error) {
@@ -139,7 +147,7 @@ impl SceneCheck {
         self.unused_models(&project, texts, cancel, &mut own.errors)?;
         let notes = self.notes(&project);
         (own.unfit, own.notes) = (notes.unfit, notes.changed);
-        own.errors.sort_by_key(|error| error.range.start);
+        own.errors = limited(own.errors);
         if let Some(name) = project.lines().filter(|_| !self.lines.errors.is_empty()) {
             let errors = self.lines.errors.to_vec();
             checked.push(CheckedText { name: name.into(), errors, ..CheckedText::default() });
@@ -147,12 +155,46 @@ impl SceneCheck {
         Ok([own].into_iter().chain(checked).collect())
     }
 
-    /// Checks one script.
+    /// Checks one script, without its sounds.
     ///
     /// # Errors
     ///
     /// It was cancelled.
     pub(super) fn script(
+        &mut self,
+        file: &TextFile,
+        project: Option<&StageProject>,
+        texts: &TextFiles,
+        cancel: &Cancel,
+    ) -> Result<CheckedScript, LoadError> {
+        self.begin();
+        self.without_sounds(file, project, texts, cancel)
+    }
+
+    /// Begins a question: what could not be read before may be there now.
+    fn begin(&mut self) {
+        self.models.begin();
+        self.sounds.begin();
+    }
+
+    fn with_sounds(
+        &mut self,
+        file: &TextFile,
+        project: Option<&StageProject>,
+        texts: &TextFiles,
+        cancel: &Cancel,
+    ) -> Result<CheckedScript, LoadError> {
+        let mut checked = self.without_sounds(file, project, texts, cancel)?;
+        if let Some(script) = &checked.script {
+            let (own, shared) = separated(project, self.sound_errors(script, cancel)?);
+            checked.text.errors.extend(own);
+            checked.shared.extend(shared);
+            checked.text.errors = limited(checked.text.errors);
+        }
+        Ok(checked)
+    }
+
+    fn without_sounds(
         &mut self,
         file: &TextFile,
         project: Option<&StageProject>,
@@ -167,8 +209,11 @@ impl SceneCheck {
         let context = ScriptContext {
             name: Arc::clone(&file.name),
             project: project.cloned(),
-            files: read_includes((&file.name, &file.text), texts, folder),
+            files: read_includes((&file.name, &file.text), texts, folder, cancel),
         };
+        if cancel.is_cancelled() {
+            return Err(LoadError::Cancelled);
+        }
         match StageScript::read_in(Arc::clone(&file.text), &context) {
             Ok(script) => {
                 errors = self.read_models(&script, project, texts, cancel)?;
@@ -180,22 +225,18 @@ impl SceneCheck {
                     Ok(_) => {}
                     Err(more) => errors.extend(more),
                 }
-                errors.extend(self.read_sounds(&script));
                 checked.script = Some(script);
             }
             Err(more) => errors.extend(more),
         }
-        errors.sort_by_key(|error| error.range.start);
-        (checked.text.errors, checked.shared) = match project {
-            Some(project) => project.separated(errors),
-            None => (errors, Vec::new()),
-        };
+        (checked.text.errors, checked.shared) = separated(project, limited(errors));
         Ok(checked)
     }
 
     /// Returns what the user should know about the models of a project that were read.
     pub(super) fn notes(&self, project: &StageProject) -> ProjectNotes {
-        let read = self.models.iter().map(|(name, model)| (name.as_str(), &model.source, &model.state));
+        let read =
+            self.models.read().iter().map(|(name, model)| (name.as_str(), &model.source, &model.state));
         ProjectNotes::of(project, &ProjectModels::of(project), read)
     }
 
@@ -213,12 +254,15 @@ impl SceneCheck {
             };
             let read =
                 self.folder.as_ref().map_err(Clone::clone).map(|folder| folder.read(name, MOST_BYTES as u64));
-            let reason = match read {
-                Err(reason) => reason,
-                Ok(Err(reason)) => reason.to_string(),
-                Ok(Ok(_)) => "is no text in UTF-8, or came after the project was opened".to_owned(),
+            let message = match read {
+                Err(reason) => format!("{name} {reason}"),
+                Ok(Err(reason)) => format!("{name} {reason}"),
+                Ok(Ok(bytes)) => match text_of(bytes) {
+                    Ok(_) => format!("{name} was not there when the project was opened; open it again"),
+                    Err(reason) => format!("{name}:{reason}"),
+                },
             };
-            errors.push(self.error(project.tree(), element.value_range("src"), &format!("{name} {reason}")));
+            errors.push(self.error(project.tree(), element.value_range("src"), name, message));
         }
         if project.scripts().next().is_none() {
             let range = project.tree().elements()[0].name.clone();
@@ -227,9 +271,35 @@ impl SceneCheck {
         }
     }
 
-    fn error(&self, tree: &ScriptTree, range: Range<usize>, message: &str) -> ScriptError {
+    /// Returns an error about `file`, which the bytes `range` name; with help where the file is not found.
+    fn error(&self, tree: &ScriptTree, range: Range<usize>, file: &str, message: String) -> ScriptError {
         let of = if self.is_project { "project" } else { "script" };
-        tree.error(range, message, format!("it names files below the folder of the {of}"))
+        let help = match self.folder.as_ref().is_ok_and(|folder| folder.path_of(file).is_ok()) {
+            true => String::new(),
+            false => {
+                format!("files are named relative to the folder of the {of}, and are in it or below it")
+            }
+        };
+        tree.error(range, message, help)
+    }
+
+    /// Returns an error for each place that names a sound which cannot be read, in the order of the text: at most [`MOST_ERRORS`].
+    fn sound_errors(&mut self, script: &StageScript, cancel: &Cancel) -> Result<Vec<ScriptError>, LoadError> {
+        let mut errors = Vec::new();
+        for element in script.tree().elements().iter().filter(|element| element.row.name == "sound") {
+            if errors.len() >= MOST_ERRORS {
+                break;
+            }
+            let Some(name) = element.value("src") else { continue };
+            if let Err(reason) = self.sounds.check(name, cancel)? {
+                let error = self.error(script.tree(), element.value_range("src"), name, reason);
+                // A file that is included often has it once.
+                if !errors.contains(&error) {
+                    errors.push(error);
+                }
+            }
+        }
+        Ok(errors)
     }
 
     /// Reads the models of a project that no script uses. Reports those that are missing.
@@ -243,14 +313,30 @@ impl SceneCheck {
         let named = ProjectModels::of(project);
         for model in project.elements_called("model") {
             let (Some(id), Some(file)) = (model.value("id"), model.value("src")) else { continue };
-            if self.models.contains_key(id) || self.models.contains_key(file) {
+            // One that a script uses is reported there.
+            if self.models.is_tried(id) || self.models.is_tried(file) {
                 continue;
             }
+            if errors.len() >= MOST_ERRORS {
+                break;
+            }
             if let Err(reason) = self.read_model(id, Some(&named), texts, cancel)? {
-                errors.push(self.error(project.tree(), model.value_range("src"), &reason));
+                errors.push(self.error(project.tree(), model.value_range("src"), file, reason));
             }
         }
         Ok(())
+    }
+
+    fn read_model(
+        &mut self,
+        name: &str,
+        models: Option<&ProjectModels<'_>>,
+        texts: &TextFiles,
+        cancel: &Cancel,
+    ) -> Result<Result<(), String>, LoadError> {
+        let source = SceneModelSource::of(name, models, texts);
+        let folder = self.folder.as_ref().map_err(Clone::clone);
+        self.models.add(name, source, folder, &mut self.assets, cancel)
     }
 
     /// Reads the models that a script names. Returns an error for each that is missing.
@@ -261,70 +347,39 @@ impl SceneCheck {
         texts: &TextFiles,
         cancel: &Cancel,
     ) -> Result<Vec<ScriptError>, LoadError> {
-        let named = project.map(ProjectModels::of);
-        let mut tried: BTreeMap<&str, Range<usize>> = BTreeMap::new();
+        let models = project.map(ProjectModels::of);
+        let mut named: BTreeMap<&str, Range<usize>> = BTreeMap::new();
         for attribute in script.things().filter_map(|thing| thing.attribute("model")) {
-            tried.entry(&attribute.value).or_insert_with(|| attribute.value_range.clone());
+            named.entry(&attribute.value).or_insert_with(|| attribute.value_range.clone());
         }
         let mut errors = Vec::new();
-        for (name, range) in tried {
-            if let Err(reason) = self.read_model(name, named.as_ref(), texts, cancel)? {
-                errors.push(self.error(script.tree(), range, &reason));
+        for (name, range) in named {
+            if errors.len() >= MOST_ERRORS {
+                break;
+            }
+            if let Err(reason) = self.read_model(name, models.as_ref(), texts, cancel)? {
+                let file = project.map_or(name, |project| project.source_of(name));
+                errors.push(self.error(script.tree(), range, file, reason));
             }
         }
         Ok(errors)
     }
+}
 
-    /// Reads a model, unless it was read from there before. Returns the reason where it cannot be read.
-    fn read_model(
-        &mut self,
-        name: &str,
-        named: Option<&ProjectModels<'_>>,
-        texts: &TextFiles,
-        cancel: &Cancel,
-    ) -> Result<Result<(), String>, LoadError> {
-        let source = SceneModelSource::of(name, named, texts);
-        if self.models.get(name).is_some_and(|known| known.source == source) {
-            return Ok(Ok(()));
-        }
-        let read = match &self.folder {
-            Ok(folder) => source.read(folder, cancel),
-            Err(reason) => return Ok(Err(reason.clone())),
-        };
-        match read {
-            Ok(read) => {
-                self.assets.add_model(name, read.stage);
-                let (loaded, state) = (Arc::new(read.loaded), read.state);
-                self.models.insert(name.to_owned(), CheckedModel { source, loaded, state });
-                Ok(Ok(()))
-            }
-            Err(LoadError::Cancelled) => Err(LoadError::Cancelled),
-            Err(reason) => {
-                self.assets.remove_model(name);
-                self.models.remove(name);
-                Ok(Err(match reason {
-                    LoadError::Format { reason, .. } => format!("{}: {reason}", source.file),
-                    other => other.to_string(),
-                }))
-            }
-        }
+/// Separates errors of the text of a script from those of the cast that it shares with its project.
+fn separated(
+    project: Option<&StageProject>,
+    errors: Vec<ScriptError>,
+) -> (Vec<ScriptError>, Vec<ScriptError>) {
+    match project {
+        Some(project) => project.separated(errors),
+        None => (errors, Vec::new()),
     }
+}
 
-    /// Returns an error for each sound that cannot be read.
-    fn read_sounds(&mut self, script: &StageScript) -> Vec<ScriptError> {
-        let is_sound = |element: &&ScriptElement| element.row.name == "sound";
-        let mut errors = Vec::new();
-        for element in script.tree().elements().iter().filter(is_sound) {
-            let Some(name) = element.value("src").filter(|name| !self.sounds.contains(*name)) else {
-                continue;
-            };
-            match (SoundSource::Below { folder: self.path.clone(), name: name.to_owned() }).check() {
-                Ok(()) => drop(self.sounds.insert(name.to_owned())),
-                Err(reason) => {
-                    errors.push(self.error(script.tree(), element.value_range("src"), &reason));
-                }
-            }
-        }
-        errors
-    }
+/// Returns errors in the order of the text: those at which a user looks.
+fn limited(mut errors: Vec<ScriptError>) -> Vec<ScriptError> {
+    errors.sort_by_key(|error| error.range.start);
+    errors.truncate(MOST_ERRORS);
+    errors
 }

@@ -1,15 +1,15 @@
 //! The files that the script of a scene includes: read in a job, and again when another program changes them.
 
-use super::Folder;
 use super::adapter::TextFiles;
 use super::beside::{BesideStamps, ReadOnce};
 use super::job::JobNews;
 use super::text_source::text_of;
+use super::{Cancel, Folder};
 use dragonfly_anim::format::AssetFs;
-use dragonfly_anim::stage::script::{IncludedScripts, MOST_BYTES, MissingScript};
+use dragonfly_anim::stage::script::{IncludedScripts, MOST_BYTES, MOST_ERRORS, MissingScript};
 use dragonfly_runtime::{Address, Job};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Number of names of scripts that are suggested in place of a missing one.
@@ -28,12 +28,19 @@ struct ReadInclude {
     is_old: bool,
 }
 
-/// The files that a job has read, by their names.
+/// What a job has read.
 #[derive(Debug)]
 pub(super) struct SceneIncludeNews {
     mark: IncludeMark,
     /// The reason why there is nothing, if the job failed.
-    read: Result<BTreeMap<String, ReadInclude>, String>,
+    read: Result<ReadIncludes, String>,
+}
+
+/// Files by their names, and the same with their elements.
+#[derive(Debug)]
+struct ReadIncludes {
+    read: BTreeMap<String, ReadInclude>,
+    files: IncludedScripts,
 }
 
 /// The files that the script of a scene includes.
@@ -49,12 +56,13 @@ pub(super) fn read_includes(
     (name, text): (&str, &str),
     texts: &TextFiles,
     folder: Result<&Folder, String>,
+    cancel: &Cancel,
 ) -> IncludedScripts {
-    IncludedScripts::default().collected(name, text, |file| match texts.called(file) {
-        Some(known) => Ok(Arc::clone(&known.text)),
-        None => folder
-            .clone()
-            .map_or_else(|reason| Err(missing(reason)), |folder| ReadInclude::of(folder, file).text),
+    let mut reader = folder.map(|folder| IncludeReader::new(folder, cancel));
+    IncludedScripts::default().collected(name, text, |file| match (texts.called(file), &mut reader) {
+        (Some(known), _) => Ok(Arc::clone(&known.text)),
+        (None, Ok(reader)) => reader.read(file).text,
+        (None, Err(reason)) => Err(missing(reason.clone())),
     })
 }
 
@@ -62,15 +70,43 @@ fn missing(reason: String) -> MissingScript {
     MissingScript { reason: format!("cannot be read: {reason}"), beside: Vec::new() }
 }
 
-impl ReadInclude {
-    fn of(folder: &Folder, file: &str) -> Self {
-        let door = ReadOnce::inside(folder.clone());
+/// Reads files of a folder until it is cancelled, or too many are missing for a user to look at.
+struct IncludeReader<'a> {
+    folder: &'a Folder,
+    cancel: &'a Cancel,
+    /// The scripts in the folders of missing files, by the folder.
+    beside: BTreeMap<Box<str>, Vec<String>>,
+    /// Number of files that are missing.
+    missing: usize,
+}
+
+impl<'a> IncludeReader<'a> {
+    fn new(folder: &'a Folder, cancel: &'a Cancel) -> Self {
+        Self { folder, cancel, beside: BTreeMap::new(), missing: 0 }
+    }
+
+    fn read(&mut self, file: &str) -> ReadInclude {
+        let reason = match self.cancel.is_cancelled() {
+            true => Some("was not read"),
+            false => (self.missing >= MOST_ERRORS).then_some("was not read, because many others are missing"),
+        };
+        if let Some(reason) = reason {
+            return ReadInclude { text: Err(reason.into()), stamps: BesideStamps::default(), is_old: false };
+        }
+        let door = ReadOnce::inside(self.folder.clone());
         let read = door.read(file, MOST_BYTES as u64).map_err(|error| error.to_string());
         let text = read.and_then(text_of).map_err(|reason| {
-            let beside = folder.names_beside(file, "xml", MOST_SUGGESTED);
-            MissingScript { beside, ..missing(reason) }
+            self.missing += 1;
+            MissingScript { beside: self.names_beside(file), ..missing(reason) }
         });
-        Self { text, stamps: door.stamps(), is_old: false }
+        ReadInclude { text, stamps: door.stamps(), is_old: false }
+    }
+
+    /// Returns names that may be meant by that of a missing file. Each folder is listed once.
+    fn names_beside(&mut self, file: &str) -> Vec<String> {
+        let inside = file.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let list = || self.folder.names_in(inside, "xml", MOST_SUGGESTED);
+        self.beside.entry(inside.into()).or_insert_with(list).clone()
     }
 }
 
@@ -89,10 +125,12 @@ impl SceneIncludes {
         document: &Address<JobNews>,
     ) {
         let wanted = RefCell::new(false);
+        let mut named = BTreeSet::new();
         let files = self.files.collected(name, text, |file| {
             if let Some(known) = texts.called(file) {
                 return Ok(Arc::clone(&known.text));
             }
+            named.insert(file.to_owned());
             let read = self.read.get(file);
             if read.is_none_or(|read| read.is_old) {
                 wanted.replace(true);
@@ -100,6 +138,8 @@ impl SceneIncludes {
             read.map_or_else(|| Err("is being read".into()), |read| read.text.clone())
         });
         self.files = files;
+        // Files that are not included any more need not be looked at again.
+        self.read.retain(|file, _| named.contains(file));
         if !wanted.into_inner() {
             // A job that still runs reads what is not included any more.
             self.job = None;
@@ -123,6 +163,7 @@ impl SceneIncludes {
                     texts: texts.clone(),
                     folder: folder.clone(),
                     known,
+                    files: self.files.clone(),
                 };
                 order.start(document, Arc::clone(&mark)).map_err(|error| error.to_string())
             }
@@ -154,7 +195,7 @@ impl SceneIncludes {
             return false;
         }
         match news.read {
-            Ok(read) => self.read = read,
+            Ok(ReadIncludes { read, files }) => (self.read, self.files) = (read, files),
             Err(reason) => self.give_up(&reason),
         }
         true
@@ -184,6 +225,8 @@ struct ReadOrder {
     folder: Folder,
     /// The files that need not be read again.
     known: BTreeMap<String, ReadInclude>,
+    /// Files whose elements are known.
+    files: IncludedScripts,
 }
 
 impl ReadOrder {
@@ -194,18 +237,16 @@ impl ReadOrder {
             "includes",
             move |job| {
                 let mut read = self.known;
-                let _files = IncludedScripts::default().collected(&self.name, &self.text, |file| {
+                let mut reader = IncludeReader::new(&self.folder, job.cancel_flag());
+                let files = self.files.collected(&self.name, &self.text, |file| {
                     if let Some(known) = self.texts.called(file) {
                         return Ok(Arc::clone(&known.text));
                     }
-                    if job.cancel_flag().is_cancelled() {
-                        return Err("was not read".into());
-                    }
-                    let found =
-                        read.entry(file.to_owned()).or_insert_with(|| ReadInclude::of(&self.folder, file));
+                    let found = read.entry(file.to_owned()).or_insert_with(|| reader.read(file));
                     found.text.clone()
                 });
-                JobNews::SceneIncludes(Box::new(SceneIncludeNews { mark, read: Ok(read) }))
+                let read = Ok(ReadIncludes { read, files });
+                JobNews::SceneIncludes(Box::new(SceneIncludeNews { mark, read }))
             },
             move |panic| {
                 let read = Err(format!("the reader failed: {panic}"));

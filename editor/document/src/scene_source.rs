@@ -1,11 +1,12 @@
 //! Scripts of scenes from files, with the models that they name.
 
 use super::Cancel;
-use super::scene_check::{CheckedModel, CheckedScript, CheckedText, SceneCheck};
+use super::checked_models::CheckedModel;
+use super::scene_check::{CheckedScript, CheckedText, SceneCheck};
 use super::scene_lines::SceneLines;
 use super::scene_view::{SceneModel, SceneView};
 use super::source::LoadError;
-use super::text_source::read_texts;
+use super::text_source::{first_script, read_texts};
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
@@ -82,21 +83,16 @@ fn listed(texts: &[CheckedText]) -> String {
 pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoadError> {
     let read = read_texts(path)?;
     let mut check = SceneCheck::of(Some(path));
-    let Some((main, others)) = read.texts.list().split_first() else { return Err(SceneLoadError::NoScript) };
+    let main = read.texts.list().first().ok_or(SceneLoadError::NoScript)?;
     let wrong =
         |name: &Arc<str>, errors| CheckedText { name: Arc::clone(name), errors, ..CheckedText::default() };
-    let (mut file, mut project) = (main, None);
-    if check.is_project() {
-        let found = StageProject::read(Arc::clone(&main.text))
-            .map_err(|errors| SceneLoadError::Wrong(vec![wrong(&main.name, errors)]))?;
-        let own = found.scripts().find_map(|name| others.iter().find(|file| *file.name == *name));
-        // A script that could not be read has its reason.
-        file = own.ok_or_else(|| match &*read.warnings {
-            [] => SceneLoadError::NoScript,
-            warnings => SceneLoadError::Unread(warnings.join("\n")),
-        })?;
-        project = Some(found);
-    }
+    let project = check.project(&read.texts);
+    let project = project.map_err(|errors| SceneLoadError::Wrong(vec![wrong(&main.name, errors)]))?;
+    // A script that could not be read has its reason.
+    let file = first_script(project.as_ref(), &read.texts).ok_or_else(|| match &*read.warnings {
+        [] => SceneLoadError::NoScript,
+        warnings => SceneLoadError::Unread(warnings.join("\n")),
+    })?;
     let CheckedScript { text, shared, script, plan } =
         check.script(file, project.as_ref(), &read.texts, cancel).map_err(SceneLoadError::of)?;
     let SceneLines { lines, errors: line_errors, .. } = check.lines().clone();

@@ -60,6 +60,7 @@ pub enum SceneModel {
 impl SceneView {
     /// Returns whether what plays is the newest text, with the cast of the newest project.
     pub fn is_current(&self) -> bool {
-        self.errors.is_empty() && self.shared_errors.is_empty() && self.plan.is_some()
+        let wrong = [&self.errors, &self.shared_errors, &self.project_errors];
+        wrong.into_iter().all(|errors| errors.is_empty()) && self.plan.is_some()
     }
 }

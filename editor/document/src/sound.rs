@@ -1,9 +1,11 @@
 //! Sound files as peaks for a waveform. Everything here reads files and is called in jobs.
 
 use super::Cancel;
-use super::folder::{Folder, open_file};
+use super::folder::{FileAccessError, Folder, open_file};
 use dragonfly_sound::{SoundReader, SoundSamples};
+use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 /// Number of samples of a block of the finest level.
 const BLOCK: u64 = 64;
@@ -91,7 +93,20 @@ pub enum SoundSource {
     },
 }
 
+/// The state of a sound file, by which a later change is noticed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SoundStamp {
+    written: SystemTime,
+    bytes: u64,
+}
+
 impl SoundSource {
+    /// Returns the present state of the file; `None` where it cannot be opened.
+    pub fn stamp(&self) -> Option<SoundStamp> {
+        let data = self.open().1.ok()?.metadata().ok()?;
+        Some(SoundStamp { written: data.modified().ok()?, bytes: data.len() })
+    }
+
     /// Reads the peaks of the sound.
     ///
     /// # Errors
@@ -123,7 +138,15 @@ impl SoundSource {
     }
 
     fn read<T>(&self, read: impl FnOnce(&mut SoundReader) -> Result<T, String>) -> Result<T, String> {
-        let (name, file) = match self {
+        let (name, file) = self.open();
+        let file = file.map_err(|error| format!("{name} {error}"))?;
+        let read = SoundReader::new(file, &name).and_then(|mut reader| read(&mut reader));
+        read.map_err(|reason| format!("{name} cannot be read: {reason}"))
+    }
+
+    /// Opens the file. Returns its name for the user, too.
+    fn open(&self) -> (String, Result<File, FileAccessError>) {
+        match self {
             Self::File(path) => {
                 (path.file_name().unwrap_or_default().to_string_lossy().into_owned(), open_file(path))
             }
@@ -131,10 +154,7 @@ impl SoundSource {
                 let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
                 (name.clone(), Folder::new(folder).and_then(|folder| folder.open(name)))
             }
-        };
-        let file = file.map_err(|error| format!("{name} {error}"))?;
-        let read = SoundReader::new(file, &name).and_then(|mut reader| read(&mut reader));
-        read.map_err(|reason| format!("{name} cannot be read: {reason}"))
+        }
     }
 }
 

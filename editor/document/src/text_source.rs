@@ -105,6 +105,14 @@ fn read_stamped(path: &Path) -> Result<(Arc<str>, Option<FileStamp>), LoadError>
     Ok((text_of(bytes).map_err(wrong)?, stamp))
 }
 
+/// Returns the first script of a project that is among `texts`, or else the script that is alone.
+pub(super) fn first_script<'a>(project: Option<&StageProject>, texts: &'a TextFiles) -> Option<&'a TextFile> {
+    match project {
+        Some(project) => project.scripts().find_map(|name| texts.called(name)),
+        None => texts.list().first(),
+    }
+}
+
 /// Returns the bytes as text; the place and the reason where they are none.
 pub(super) fn text_of(bytes: Vec<u8>) -> Result<Arc<str>, String> {
     let text = String::from_utf8(bytes).map_err(|error| {

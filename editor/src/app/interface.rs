@@ -274,7 +274,7 @@ impl Interface {
                 self.redraw();
             }
             WindowEvent::Focused(true) => {
-                self.state.scene_sounds().forget_problems();
+                self.state.scene_sounds().look_again();
                 self.effects.push(Effect::File(FileAction::Send(DocumentMessage::LookAtFile)));
                 self.redraw();
             }

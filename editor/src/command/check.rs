@@ -124,11 +124,19 @@ struct CheckReport {
 struct FindingRow {
     severity: &'static str,
     rule: &'static str,
-    /// The text of a project that has it; absent for other files.
+    /// The text of a project, or the included script, that has it; absent for the file of the report.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<String>,
     place: String,
     text: String,
+}
+
+impl FindingRow {
+    /// Returns whether both say the same about the same place.
+    fn is_of(&self, other: &Self) -> bool {
+        let key = |row: &Self| (row.rule, row.file.clone(), row.place.clone(), row.text.clone());
+        key(self) == key(other)
+    }
 }
 
 impl CheckReport {
@@ -176,7 +184,7 @@ impl CheckReport {
     }
 
     /// Checks all texts of a scene with the models and sounds that they name. What is wrong are findings with line and column; those of a
-    /// project name their file.
+    /// project and of included scripts name their file.
     fn of_scene(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
         let checked = check_scene(file, &Cancel::default())?;
         let title = checked.first().map(|text| text.name.to_string()).unwrap_or_default();
@@ -190,10 +198,16 @@ impl CheckReport {
             for (severity, rule, list) in lists {
                 for error in list {
                     let text = error.sentence();
-                    let place =
-                        error.inside.map_or_else(|| error.place.to_string(), |inside| inside.to_string());
-                    let file = is_project(file).then(|| name.to_string());
-                    report.add(deny, severity, FindingRow { severity: "", rule, file, place, text });
+                    let own = || is_project(file).then(|| name.to_string());
+                    let (file, place) = match &error.inside {
+                        Some(inside) => (Some(inside.file.to_string()), inside.place.to_string()),
+                        None => (own(), error.place.to_string()),
+                    };
+                    let row = FindingRow { severity: "", rule, file, place, text };
+                    // Each script that includes a file finds its errors.
+                    if error.inside.is_none() || !report.findings.iter().any(|other| other.is_of(&row)) {
+                        report.add(deny, severity, row);
+                    }
                 }
             }
         }

@@ -30,7 +30,7 @@ pub(super) struct PoseArguments {
     #[command(flatten)]
     take: TakeChoice,
     /// Time in seconds, clamped to the take; of a scene exactly as its script writes times, such as 36f; repeat for more poses
-    #[arg(long, value_name = "S", required = true, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", required = true, allow_hyphen_values = true)]
     time: Vec<TimeArgument>,
     /// Role, prop or another thing of a scene, by its id; FILE is a scene (.xml) or a project (.meproj)
     #[arg(long, value_name = "ID", conflicts_with_all = ["take", "vertices"])]

@@ -25,7 +25,7 @@ pub(super) struct RenderArguments {
     #[command(flatten)]
     take: TakeChoice,
     /// Time in seconds, clamped to the take; of a scene exactly as its script writes times, such as 36f [default: the start]
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     time: Option<TimeArgument>,
     /// Frames of a scene, the first and the last, in place of a time; `-o out.png` writes out-0000.png and so on
     #[arg(long, value_name = "A..B", conflicts_with = "time")]

@@ -47,7 +47,8 @@ impl TimeArgument {
 
     /// Returns the time in a scene with this frame rate.
     pub(super) fn of_scene(&self, rate: StageRate) -> StageTime {
-        let seconds = || StageTime::from_seconds(f64::from(self.seconds.unwrap_or(0.0)));
-        parse_time(&self.text, rate).unwrap_or_else(seconds)
+        // Read again, because it was rounded for a take.
+        let exact = self.text.parse().ok().or(self.seconds.map(f64::from));
+        parse_time(&self.text, rate).unwrap_or_else(|| StageTime::from_seconds(exact.unwrap_or(0.0)))
     }
 }

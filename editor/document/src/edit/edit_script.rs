@@ -157,7 +157,7 @@ impl MapReferences for EditScript {
 
 impl EditKind for EditScript {
     const EXAMPLE: Example = Example {
-        json: r#"{"edit":"script","splices":[{"at":212,"old":"Walk","new":"Run"}],"label":"Choose take"}"#,
+        json: r#"{"edit":"script","splices":[{"at":212,"old":"Walk","new":"Run"}],"label":"Change value"}"#,
         description: "Replaces \"Walk\" at byte 212 of a scene's script by \"Run\"; \"text\" names another file of a project.",
     };
 

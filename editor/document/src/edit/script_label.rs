@@ -37,7 +37,6 @@ script_labels! {
     ChangeSpeed = "Change speed",
     ChangeRepeat = "Change repeat",
     ChangeValue = "Change value",
-    ChooseTake = "Choose take",
     AddClip = "Add clip",
     AddShot = "Add shot",
     AddRole = "Add role",

@@ -35,7 +35,15 @@ pub enum Query {
         #[serde(default)]
         text: Option<TextRef>,
     },
-    /// The errors of the script of a scene, and notes about what is probably not meant: line, column, bytes, message, help.
+    /// The errors of a scene, and notes about what is probably not meant.
+    ///
+    /// `errors` and `notes` are lists in the order of `text`, the name of the script or of the first script of a project; where the project
+    /// has none that can be read, of the project. Each has `line`, `column`, the bytes `from` and `to`, `message` and `help`; an error in
+    /// an included file has its `file`, `line`, `column`, `from` and `to` there as `inside`, and its own place is that of the `include`. A
+    /// project has `texts`, too: a list with `text`, `errors` and `notes` of itself, of each of its scripts that is read, and of its lines if
+    /// they are wrong. Only
+    /// where there are any, `lines` has `text` and `errors` of its file of lines, and `edits` is a list of sentences about edits of models
+    /// that are not applied. A text has at most 100 errors.
     Errors,
     /// The length of a scene, and when each of its actions begins and ends, in seconds.
     Schedule,

@@ -4,6 +4,7 @@ use crate::Cancel;
 use crate::adapter::{ModelAdapter, TextFile, TextFiles};
 use crate::edit::TextRef;
 use crate::scene_check::{CheckedScript, CheckedText, SceneCheck};
+use crate::text_source::first_script;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptError;
 use serde_json::{Value, json};
@@ -42,8 +43,10 @@ impl SceneAnswers {
     ///
     /// The document is no script.
     pub(super) fn errors(&mut self, texts: &TextFiles) -> Result<Value, String> {
-        let name = self.first(texts)?.name.clone();
         let checked = self.0.all(texts, &Cancel::default()).map_err(|error| error.to_string())?;
+        let project = self.0.project(texts).ok().flatten();
+        // The project is at the top where no script can be read.
+        let first = first_script(project.as_ref(), texts).map(|file| &file.name);
         let row = |error: &ScriptError| {
             let mut row = json!({"line": error.place.line, "column": error.place.column, "from": error.range.start,
                                  "to": error.range.end, "message": error.message, "help": error.help});
@@ -56,13 +59,14 @@ impl SceneAnswers {
         };
         let rows = |list: &[ScriptError]| list.iter().map(row).collect::<Vec<_>>();
         let of = |text: &CheckedText| json!({"text": &*text.name, "errors": rows(&text.errors), "notes": rows(&text.notes)});
-        let main = checked.iter().find(|text| text.name == name).or(checked.first());
+        let main = checked.iter().find(|text| first == Some(&text.name)).or(checked.first());
         let mut answer = of(main.ok_or("the document has no text")?);
         let Some(object) = answer.as_object_mut() else { return Ok(answer) };
         if self.0.is_project() {
             object.insert("texts".to_owned(), checked.iter().map(of).collect());
         }
-        let is_lines = |text: &&CheckedText| self.is_lines(texts, &text.name);
+        let lines = project.as_ref().and_then(StageProject::lines);
+        let is_lines = |text: &&CheckedText| lines == Some(&*text.name);
         if let Some(lines) = checked.iter().find(is_lines) {
             object.insert("lines".to_owned(), json!({"text": &*lines.name, "errors": rows(&lines.errors)}));
         }
@@ -80,8 +84,8 @@ impl SceneAnswers {
     ///
     /// The document is no script, or something is wrong with it.
     pub(super) fn schedule(&mut self, texts: &TextFiles) -> Result<Value, String> {
-        let project = self.project(texts).map_err(|errors| listed(&errors))?;
-        let file = self.first(texts)?;
+        let project = self.0.project(texts).map_err(|errors| listed(&errors))?;
+        let file = first_script(project.as_ref(), texts).ok_or("there is no script that can be read")?;
         let checked = self.0.script(file, project.as_ref(), texts, &Cancel::default());
         let CheckedScript { text, shared, script, plan } = checked.map_err(|error| error.to_string())?;
         let (Some(script), Some(plan)) = (&script, &plan) else {
@@ -104,24 +108,6 @@ impl SceneAnswers {
         };
         let actions: Vec<Value> = plan.schedule().times().iter().enumerate().map(row).collect();
         Ok(json!({"length": plan.length().seconds(), "actions": actions}))
-    }
-
-    /// Returns the project; `None` for a script.
-    fn project(&self, texts: &TextFiles) -> Result<Option<StageProject>, Vec<ScriptError>> {
-        let main = texts.main().filter(|_| self.0.is_project());
-        main.map(|text| StageProject::read(text.clone())).transpose()
-    }
-
-    fn is_lines(&self, texts: &TextFiles, name: &str) -> bool {
-        self.project(texts).ok().flatten().is_some_and(|project| project.lines() == Some(name))
-    }
-
-    /// Returns the first script; the project where that cannot be read.
-    fn first<'a>(&self, texts: &'a TextFiles) -> Result<&'a TextFile, String> {
-        let main = texts.list().first().ok_or("the document has no text")?;
-        let Ok(Some(project)) = self.project(texts) else { return Ok(main) };
-        let first = project.scripts().find_map(|name| texts.called(name));
-        first.ok_or_else(|| "the project has no script".to_owned())
     }
 }
 

@@ -28,7 +28,7 @@ pub(super) struct ExplainArguments {
     #[command(flatten)]
     take: TakeChoice,
     /// Time in seconds, clamped to the take
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
     time: TimeArgument,
     /// Bone, by name or by index from 0; a name has priority over an index
     #[arg(long, value_name = "BONE", group = "what", allow_hyphen_values = true)]

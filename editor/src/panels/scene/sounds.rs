@@ -1,7 +1,7 @@
 //! The sounds of the scene that is open: which are wanted, and their peaks once they are read.
 
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_document::SoundPeaks;
+use dragonfly_document::{SoundPeaks, SoundStamp};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -20,6 +20,10 @@ pub enum SceneSound {
 #[derive(Clone, Debug, Default)]
 pub struct SceneSounds {
     sounds: BTreeMap<Box<str>, SceneSound>,
+    /// The states of the files that were read.
+    stamps: BTreeMap<Box<str>, SoundStamp>,
+    /// The sounds that were read from files which may be others by now.
+    unsure: BTreeSet<Box<str>>,
     /// Grows when another document is opened.
     opened: u64,
 }
@@ -35,25 +39,50 @@ impl SceneSounds {
         self.opened
     }
 
-    /// Returns the first sound of a plan of which nothing is known.
+    /// Returns the first sound of a plan of which nothing is known, or whose file may be another one by now.
     pub fn wanted<'a>(&self, plan: &'a StagePlan) -> Option<&'a str> {
-        plan.sounds().iter().map(|sound| &*sound.source).find(|source| !self.sounds.contains_key(*source))
+        let is_wanted = |source: &&str| !self.sounds.contains_key(*source) || self.unsure.contains(*source);
+        plan.sounds().iter().map(|sound| &*sound.source).find(is_wanted)
     }
 
     /// Forgets the sounds that a plan does not name. One that is named again is read again: its file may be another one by then.
     pub fn keep_named(&mut self, plan: &StagePlan) {
         let named: BTreeSet<&str> = plan.sounds().iter().map(|sound| &*sound.source).collect();
         self.sounds.retain(|source, _| named.contains(&**source));
+        self.unsure.retain(|source| named.contains(&**source));
     }
 
-    /// Forgets the sounds that could not be read, so that they are read again: their files may be there now.
-    pub fn forget_problems(&mut self) {
+    /// Forgets the sounds that could not be read, so that they are read again: their files may be there now. The others are wanted again where
+    /// their files changed.
+    pub fn look_again(&mut self) {
         self.sounds.retain(|_, sound| !matches!(sound, SceneSound::Problem(_)));
+        let is_read = |(source, sound): (&Box<str>, &SceneSound)| {
+            matches!(sound, SceneSound::Read(_)).then(|| source.clone())
+        };
+        self.unsure = self.sounds.iter().filter_map(is_read).collect();
     }
 
-    /// Notes that a sound is being read.
-    pub fn begin(&mut self, source: &str) {
+    /// Notes that a sound is being read. What is known of it counts until it is found to be another one; then the state of the file is returned
+    /// from which it was read.
+    pub fn begin(&mut self, source: &str) -> Option<SoundStamp> {
+        if self.unsure.remove(source) {
+            return self.stamps.get(source).copied();
+        }
         self.sounds.insert(source.into(), SceneSound::Reading);
+        None
+    }
+
+    /// Notes the state of the file from which a sound was read.
+    pub fn stamp(&mut self, source: &str, stamp: Option<SoundStamp>) {
+        match stamp {
+            Some(stamp) => drop(self.stamps.insert(source.into(), stamp)),
+            None => drop(self.stamps.remove(source)),
+        }
+    }
+
+    /// Forgets all sounds: the scene is in another folder. Earlier answers mean nothing.
+    pub fn forget(&mut self) {
+        *self = self.cleared();
     }
 
     /// Notes what was read.
@@ -67,6 +96,6 @@ impl SceneSounds {
 
     /// Returns sounds of which nothing is known, for another document.
     pub(super) fn cleared(&self) -> Self {
-        Self { sounds: BTreeMap::new(), opened: self.opened + 1 }
+        Self { opened: self.opened + 1, ..Self::default() }
     }
 }
