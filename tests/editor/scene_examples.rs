@@ -5,6 +5,7 @@ use dragonfly_anim::stage::StageScene;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::{Cancel, load_scene};
 use dragonfly_kit::folder::Folder;
+use dragonfly_kit::skip::{TestNeed, skip};
 use glam::{Mat4, Vec2, Vec3};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -17,7 +18,7 @@ const INSIDE: [&str; 9] =
     ["hips", "spine", "chest", "head", "upperleg.l", "upperleg.r", "lowerleg.l", "lowerleg.r", "upperarm.l"];
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(format!("{name}.xml"))
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(format!("{name}.meproj"))
 }
 
 fn text(path: &Path) -> &str {
@@ -39,6 +40,57 @@ fn every_example_is_without_errors_and_its_roles_are_posed() {
     }
 }
 
+#[test]
+fn every_text_of_the_examples_is_what_the_schemas_allow() {
+    let folder = Folder::new("scene-schemas");
+    for (kind, names) in [
+        ("project", &["duel.meproj", "walk.meproj", "crowd.meproj"][..]),
+        ("script", &["duel.xml", "walk.xml", "crowd.xml"]),
+        ("lines", &["walk.lines.xml"]),
+    ] {
+        let schema = folder.join("schema.rng");
+        std::fs::write(&schema, run(["script", "--schema", kind]).expect(0).text()).expect("a file");
+        for name in names {
+            let path = example("duel").with_file_name(name);
+            match std::process::Command::new("xmllint")
+                .args(["--noout", "--relaxng"])
+                .args([&schema, &path])
+                .output()
+            {
+                Ok(done) => assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr)),
+                Err(_) => skip(TestNeed::Evaluators, "there is no xmllint"),
+            }
+        }
+    }
+}
+
+#[test]
+fn the_duel_has_a_rail_a_mark_rain_and_a_knife_that_falls_to_the_ground() {
+    let scene = load_scene(&example("duel"), &Cancel::default()).expect("an example");
+    assert_eq!(scene.warnings, [""; 0]);
+    let (plan, script) = (&scene.plan, &scene.script);
+    let thing = |id: &str| plan.thing_called(id).expect(id);
+    let times = |id: &str| plan.schedule().times()[script.action_called(id).expect(id)];
+    let mut shown = plan.new_scene();
+    let mut at = |seconds: f64, id: &str| {
+        plan.scene_at(StageTime::from_seconds(seconds), &mut shown);
+        let state = &shown.things[thing(id)];
+        (state.transform.translation, state.effect.map_or(0.0, |effect| effect.weight))
+    };
+    // Ben goes to the mark.
+    assert!(at(0.0, "ben").0.distance(Vec3::new(1.5, 0.0, 0.0)) < 1e-3);
+    assert!(at(4.0, "ben").0.distance(Vec3::new(0.6, 0.0, 0.0)) < 1e-3);
+    // The camera is at the start and at the end of its rail.
+    let offer = times("offer").begin.seconds();
+    assert!(at(offer - 0.3, "close").0.distance(Vec3::new(0.5, 1.4, 3.4)) < 1e-3);
+    assert!(at(offer + 2.0, "close").0.distance(Vec3::new(0.1, 1.4, 3.1)) < 1e-3);
+    let cheer = times("cheer").begin.seconds();
+    assert!(at(cheer - 0.1, "knife").0.y > 0.3, "in his hand");
+    assert!(at(cheer + 0.5, "knife").0.y.abs() < 0.2, "on the ground");
+    assert_eq!((at(1.0, "rain").1, at(cheer + 1.0, "rain").1), (0.0, 1.0));
+    assert_eq!(plan.sounds().len(), 1);
+}
+
 #[cfg(unix)]
 #[test]
 fn the_crowd_is_what_its_script_writes() {
@@ -46,7 +98,7 @@ fn the_crowd_is_what_its_script_writes() {
         .arg(example("crowd").with_extension("sh"))
         .output()
         .expect("a shell");
-    let kept = std::fs::read(example("crowd")).expect("an example");
+    let kept = std::fs::read(example("crowd").with_extension("xml")).expect("an example");
     assert_eq!(String::from_utf8(made.stdout), String::from_utf8(kept));
 }
 
