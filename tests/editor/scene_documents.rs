@@ -2,7 +2,7 @@
 
 use crate::program::run;
 use crate::stdio::StdioSession;
-use dragonfly_document::{Decision, DocumentMessage, View};
+use dragonfly_document::{Decision, DocumentMessage, SceneModel, View};
 use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::skip::{TestNeed, skip};
@@ -150,6 +150,92 @@ fn a_kill_while_three_models_and_a_script_are_edited_loses_nothing_that_was_answ
     for model in &models {
         let view = restored(model, &journals);
         assert_eq!((view.takes[0].name.as_str(), view.history.done), ("take 4", 5));
+    }
+}
+
+/// A project of three models, whose edits it keeps.
+fn project_of_three(folder: &Folder) -> PathBuf {
+    fox(folder);
+    let roles =
+        (0..3).map(|number| format!("    <role id=\"r{number}\" model=\"m{number}\" scale=\"0.01\"/>\n"));
+    let main = format!(
+        "<script version=\"1\">\n  <cast>\n{}  </cast>\n  <wait dur=\"1\"/>\n</script>\n",
+        roles.collect::<String>()
+    );
+    fs::write(folder.join("main.xml"), main).expect("a file");
+    let models = (0..3).map(|number| {
+        fs::copy(folder.join("Fox.glb"), folder.join(&format!("Fox{number}.glb"))).expect("a copy");
+        format!("    <model id=\"m{number}\" src=\"Fox{number}.glb\"/>\n")
+    });
+    let project = format!(
+        "<project version=\"1\">\n  <models>\n{}  </models>\n  <script id=\"main\" src=\"main.xml\"/>\n</project>\n",
+        models.collect::<String>()
+    );
+    let path = folder.join("foxes.meproj");
+    fs::write(&path, project).expect("a file");
+    path
+}
+
+#[test]
+fn a_kill_while_a_project_keeps_edits_of_three_models_and_its_script_is_edited_loses_nothing_that_was_answered()
+ {
+    let folder = Folder::new("kill-project");
+    let path = project_of_three(&folder);
+    let journals = folder.join("journals");
+    let mut session = StdioSession::recording(&path, &journals);
+    let mut main = fs::read_to_string(folder.join("main.xml")).expect("a file");
+    let mut project = fs::read_to_string(&path).expect("a file");
+    let mut kept = vec![String::new(); 3];
+    let mut steps = 0;
+    for round in 0..4 {
+        for number in 0..3 {
+            let (name, id) = (format!("foxes.edits/m{number}.jsonl"), format!("m{number}"));
+            let edit =
+                json!({"edit": "rename_take", "take": round % 3, "name": format!("take {number} {round}")});
+            let new = format!("{edit}\n");
+            let splice = json!([{"at": kept[number].len(), "new": new}]);
+            let mut step = json!({"edit": "script", "text": name, "splices": splice, "label": "Edit model"});
+            if round == 0 {
+                let model = format!("<model id=\"{id}\" src=\"Fox{number}.glb\"/>");
+                let edits = format!("{model}\n    <edits of=\"{id}\" src=\"{name}\"/>");
+                let at = project.find(&model).expect("a model");
+                step["create"] = json!(true);
+                step["also"] = json!([{"splices": [{"at": at, "old": model, "new": edits}]}]);
+                project = project.replace(&model, &edits);
+            }
+            session.ask(&step);
+            kept[number] += &new;
+            let (old, now) = (format!("<role id=\"r{number}\""), format!("<role  id=\"r{number}\""));
+            let (old, now) = if round % 2 == 0 { (old, now) } else { (now, old) };
+            let at = main.find(&old).expect("a role");
+            session.ask(&json!({"edit": "script", "text": "main.xml", "splices": [{"at": at, "old": old, "new": now}]}));
+            main = main.replace(&old, &now);
+            steps += 2;
+        }
+    }
+    session.kill();
+    let mut document = TestDocument::new(&journals);
+    document.open(&path);
+    let offer = document.wait_for_offers().remove(0);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let is_read = |view: &View| {
+        let models = view.scene.as_ref().map(|scene| scene.models.clone()).unwrap_or_default();
+        view.history.done == steps
+            && models.len() == 3
+            && models.values().all(|model| matches!(model, SceneModel::Loaded(_)))
+    };
+    let view = document.wait_for_view(is_read);
+    let scene = view.scene.expect("a scene");
+    let text_of = |name: &str| scene.texts.called(name).map(|file| file.text.to_string()).expect(name);
+    assert_eq!((text_of("foxes.meproj"), text_of("main.xml")), (project, main));
+    for (number, kept) in kept.iter().enumerate() {
+        assert_eq!(text_of(&format!("foxes.edits/m{number}.jsonl")), *kept);
+        let Some(SceneModel::Loaded(loaded)) = scene.models.get(&format!("m{number}")) else {
+            panic!("m{number}")
+        };
+        // The scene plays the edits: the last name of each take.
+        let names: Vec<&str> = loaded.model.animation.takes.iter().map(|take| take.name.as_str()).collect();
+        assert_eq!(names, [3, 1, 2].map(|round| format!("take {number} {round}")));
     }
 }
 
