@@ -1,4 +1,4 @@
-//! What is wrong with the cast that the scripts of a project share is told in the text of the project, in the window and by the protocol.
+//! Errors of the cast that the scripts of a project share have their places in the text of the project, in the window and in the protocol.
 
 use super::projects::{END, PROJECT, is_read, project, replaced_in, text_of};
 use super::scenes::{replaced, scene_of};

@@ -132,7 +132,7 @@ fn a_project_without_errors_is_rendered_and_posed() {
 }
 
 #[test]
-fn a_wrong_project_is_told_with_file_line_and_column() {
+fn errors_of_a_project_have_file_line_and_column() {
     let (folder, path) = project("project-wrong");
     write(
         &folder,
@@ -160,21 +160,21 @@ fn all_scripts_of_a_project_are_checked_and_a_missing_model_hides_no_other_error
     expect(
         &path,
         &[
-            ("main.xml", "5:29", "models/gone.glb: "),
+            ("main.xml", "5:25", "models/gone.glb: "),
             ("main.xml", "7:23", "Hed"),
-            ("end.xml", "5:24", "did you mean \"Survey\""),
+            ("end.xml", "5:25", "did you mean \"Survey\""),
         ],
     );
     let refused = run(["render", text(&path), "-o", text(&folder.join("x.png"))]).expect(2);
-    assert!(refused.stderr.contains("main.xml:5:29: ") && refused.stderr.contains("main.xml:7:23: "));
+    assert!(refused.stderr.contains("main.xml:5:25: ") && refused.stderr.contains("main.xml:7:23: "));
 }
 
 #[test]
-fn errors_of_the_shared_cast_are_in_the_project_and_are_told_once() {
+fn errors_of_the_shared_cast_are_in_the_project_and_are_listed_once() {
     let (folder, path) = project("project-shared");
     let cast = PROJECT.replace("look=\"0 1 0\"", "look=\"ann.Hed\"");
     write(&folder, "foxes.meproj", &cast);
-    expect(&path, &[("foxes.meproj", "6:41", "Hed")]);
+    expect(&path, &[("foxes.meproj", "6:40", "Hed")]);
     // The same with a model that is missing.
     let cast = PROJECT.replace("  </cast>", "    <prop id=\"cup\" model=\"models/cup.glb\"/>\n  </cast>");
     write(&folder, "foxes.meproj", &cast);
@@ -189,7 +189,7 @@ fn files_that_are_missing_are_errors_where_they_are_named() {
     let more = "<model id=\"cat\" src=\"models/Cat.glb\"/>\n  </models>";
     let own = PROJECT.replace("</models>", more).replace("src=\"end.xml\"", "src=\"fin.xml\"");
     write(&folder, "foxes.meproj", &own);
-    expect(&path, &[("foxes.meproj", "4:27", "models/Cat.glb: "), ("foxes.meproj", "11:26", "fin.xml ")]);
+    expect(&path, &[("foxes.meproj", "4:24", "models/Cat.glb: "), ("foxes.meproj", "11:25", "fin.xml ")]);
 }
 
 #[test]

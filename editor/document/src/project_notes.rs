@@ -10,7 +10,7 @@ use std::ops::Range;
 /// The help for a model whose edits were made for another file.
 const OTHER_FILE: &str = "open the model to choose whether they are applied to it or removed";
 
-/// What the user should know about the models of a project, each list in the order of its text.
+/// Notes for the user about the models of a project, each list in the order of its text.
 #[derive(Debug, Default)]
 pub(super) struct ProjectNotes {
     /// Files that are others than those that were used last.

@@ -23,11 +23,11 @@ use std::sync::Arc;
 pub struct CheckedText {
     /// Its name, relative to the folder of the document.
     pub name: Arc<str>,
-    /// What is wrong, in the order of the text.
+    /// Its errors, in the order of the text.
     pub errors: Vec<ScriptError>,
     /// Edits of models that are not applied to them, in the order of the text.
     pub unfit: Vec<ScriptError>,
-    /// What is probably not meant, in the order of the text.
+    /// Notes about things that are probably not meant, in the order of the text.
     pub notes: Vec<ScriptError>,
 }
 
@@ -54,9 +54,9 @@ pub(super) struct CheckedModel {
 /// A script that was checked.
 #[derive(Default)]
 pub(super) struct CheckedScript {
-    /// What is wrong with its own text.
+    /// Its own text, with its errors and notes.
     pub(super) text: CheckedText,
-    /// What is wrong with the cast that it shares with its project, with the places in the text of the project.
+    /// The errors of the cast that it shares with its project, with the places in the text of the project.
     pub(super) shared: Vec<ScriptError>,
     /// The script, if it can be read.
     pub(super) script: Option<StageScript>,

@@ -5,11 +5,13 @@ use super::listed;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, attach_thing, cut_to,
-    delete_clip, duplicate_clip, face_thing, follow_path, move_clip, place_thing, set_fade, set_repeat,
-    set_speed, trim_end, trim_start,
+    delete_clip, delete_thing, duplicate_clip, duplicate_thing, face_splices, face_thing, follow_path,
+    move_clip, path_point_splices, place_splices, place_thing, rename_thing, set_fade, set_on_thing,
+    set_repeat, set_speed, spliced_script, trim_end, trim_start,
 };
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::{StageRepeat, StageScript};
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::Decimal;
 use glam::DVec3;
 
@@ -75,4 +77,64 @@ fn a_thing_of_the_project_is_not_placed_by_a_script() {
         let refusal = refused.expect_err("the text of the script has no such element").to_string();
         assert!(refusal.ends_with("belongs to the project: change it there"), "{refusal}");
     }
+}
+
+/// Returns the texts of project and script after replacements that `find` makes for them.
+fn texts(find: impl FnOnce(&GestureScene<'_>, &dyn Fn(&str) -> usize) -> TextSplices) -> [String; 2] {
+    let script = of_project(SCRIPT);
+    let plan =
+        StagePlan::new(&script, &assets(&fox())).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
+    let element = |id: &str| script.thing_element(id).expect(id);
+    let splices = find(&GestureScene { script: &script, plan: &plan }, &element);
+    let new = spliced_script(&script, &splices).unwrap_or_else(|refusal| panic!("{refusal}"));
+    [new.project().expect("a project").tree().text().to_string(), new.tree().text().to_string()]
+}
+
+#[test]
+fn a_thing_of_the_project_is_changed_in_the_text_of_the_project_and_nothing_else_is() {
+    let put = |id: &'static str| {
+        move |s: &GestureScene<'_>, _: &dyn Fn(&str) -> usize| {
+            place_splices(s, id, seconds(0.0), DVec3::new(1.0, 2.0, 3.0), None).expect(id)
+        }
+    };
+    let project = |old: &str, new: &str| [PROJECT.replacen(old, new, 1), SCRIPT.to_owned()];
+    assert_eq!(texts(put("door")), project("at=\"3 0 0\"", "at=\"1 2 3\""));
+    assert_eq!(texts(put("close")), project("id=\"close\"", "id=\"close\" at=\"1 2 3\""));
+    let turned = texts(|s, _| face_splices(s, "door", seconds(0.0), 45.0).expect("a mark"));
+    assert_eq!(turned, project("at=\"3 0 0\"", "at=\"3 0 0\" facing=\"45\""));
+    let lens = texts(|s, of| set_on_thing(s.script, of("wide"), "lens", Some("85mm")).expect("a camera"));
+    assert_eq!(lens, project("look=\"anna\"", "look=\"anna\" lens=\"85mm\""));
+    let away = texts(|s, of| set_on_thing(s.script, of("wide"), "look", None).expect("a camera"));
+    assert_eq!(away, project(" look=\"anna\"", ""));
+    let point =
+        texts(|s, _| path_point_splices(s.script, "aisle", 1, DVec3::new(5.0, 0.0, 6.0)).expect("a path"));
+    assert_eq!(point, project("3 0 4", "5 0 6"));
+    let gone = texts(|s, of| delete_thing(s.script, of("close")).expect("a camera"));
+    assert_eq!(gone, project("<camera id=\"close\"/>", ""));
+    let twice = texts(|s, of| duplicate_thing(s.script, of("door")).expect("a mark"));
+    let copy = "<mark id=\"door\" at=\"3 0 0\"/><mark id=\"door-2\" at=\"3 0 0\"/>";
+    assert!(twice[0].contains(copy) && twice[1] == SCRIPT, "{}", twice[0]);
+}
+
+#[test]
+fn a_new_name_is_written_in_the_project_and_in_the_script_and_one_step_changes_both() {
+    let renamed = texts(|s, of| rename_thing(s.script, of("wide"), "front").expect("a camera"));
+    let both = [PROJECT, SCRIPT].map(|text| text.replace("\"wide\"", "\"front\""));
+    assert_eq!(renamed, both);
+    // The role is in the script, and the project looks at it: that is not its own.
+    let script = of_project(SCRIPT);
+    for taken in ["close", "anna", "x", "prev", "a b"] {
+        assert!(
+            rename_thing(&script, script.thing_element("wide").expect("wide"), taken).is_none(),
+            "{taken}"
+        );
+    }
+    let both = texts(|s, of| {
+        let parts = [
+            set_on_thing(s.script, of("anna"), "facing", Some("90")).expect("a role"),
+            set_on_thing(s.script, of("door"), "at", Some("0 0 1")).expect("a mark"),
+        ];
+        TextSplices::joined(parts).expect("two places")
+    });
+    assert!(both[0].contains("at=\"0 0 1\"") && both[1].contains("scale=\"0.01\" facing=\"90\""), "{both:?}");
 }

@@ -6,7 +6,8 @@
 //!
 //! Each function changes as few attributes as it can; comments, layout and spelling of the rest stay ([`splice`](super::splice)). The new text
 //! is always a script that can be read and whose times do not depend on themselves. Several things at once are changed by
-//! [`place_splices`] and [`face_splices`], whose results [`spliced_text`] applies and checks together.
+//! [`place_splices`] and [`face_splices`], whose results [`spliced_script`] applies and checks together. It changes the texts of things of a project,
+//! too; gestures that return one text refuse those, because they are in another text.
 //!
 //! | gesture | what it changes |
 //! |---|---|
@@ -21,10 +22,11 @@
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
 //! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
-//! `prev` would have another one before it is refused, and so is one of a thing that belongs to the project: it is in another text.
+//! `prev` would have another one before it is refused.
 
 mod attributes;
 mod begin;
+mod cast;
 mod draft;
 mod insert;
 mod moving;
@@ -35,10 +37,11 @@ mod scene;
 mod trim;
 
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
+pub use cast::{delete_thing, duplicate_thing, rename_thing, set_on_thing, spliced_script};
 pub use draft::spliced_text;
 pub use insert::{add_clip, attach_thing, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
-pub use path_points::{move_path_point, written_points};
+pub use path_points::{move_path_point, path_point_splices, written_points};
 pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene};

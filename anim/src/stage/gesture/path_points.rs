@@ -1,8 +1,9 @@
 //! Points of paths, moved.
 
-use super::draft::ScriptDraft;
-use super::scene::{GestureRefusal, refused};
+use super::draft::spliced_text;
+use super::scene::{GestureRefusal, NO_PLACE, of_project, refused};
 use crate::stage::line::points_text;
+use crate::stage::project::SHARED;
 use crate::stage::script::StageScript;
 use crate::stage::splice::{TextSplice, TextSplices};
 use crate::stage::table::points;
@@ -20,6 +21,24 @@ pub fn move_path_point(
     index: usize,
     position: DVec3,
 ) -> Result<String, GestureRefusal> {
+    let splices = path_point_splices(script, path, index, position)?;
+    if splices.has_shared() {
+        return refused(of_project(path));
+    }
+    spliced_text(script, splices)
+}
+
+/// Returns the replacements of [`move_path_point`]; also those of a path of the project. The new text is not checked.
+///
+/// # Errors
+///
+/// As [`move_path_point`].
+pub fn path_point_splices(
+    script: &StageScript,
+    path: &str,
+    index: usize,
+    position: DVec3,
+) -> Result<TextSplices, GestureRefusal> {
     let tree = script.tree();
     let element = script.thing_element(path).filter(|&element| tree.elements()[element].row.name == "path");
     let Some(element) = element else { return refused(format!("No path of the cast has the id \"{path}\"")) };
@@ -27,15 +46,23 @@ pub fn move_path_point(
         return refused(format!("{path} follows a line: its points are those of the line"));
     };
     let written = attribute.value_range.clone();
-    let Some(range) = point_range(tree.text(), written, index) else {
+    let range = match script.project().filter(|_| tree.elements()[element].is_shared) {
+        Some(project) => {
+            let own = written.start - SHARED..written.end - SHARED;
+            let range = point_range(project.tree().text(), own, index);
+            range.map(|range| range.start + SHARED..range.end + SHARED)
+        }
+        None => point_range(tree.text(), written, index),
+    };
+    let Some(range) = range else {
         return refused(format!("{path} has no such point"));
     };
     if position.abs().max_element() >= 1e6 {
         return refused("The position is too far away");
     }
     let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
-    let splices = TextSplices::new(vec![TextSplice { range, text: point }]);
-    ScriptDraft::of(script).own(element)?.then(|_| splices)?.finish()
+    TextSplices::new(vec![TextSplice { range, text: point }])
+        .ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
 }
 
 /// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.

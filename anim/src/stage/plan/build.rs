@@ -177,7 +177,10 @@ impl<'a> PlanBuilder<'a> {
                 HoldKind::Attach { to, grip: RigidPlace { position, rotation }, fade_in: span.fade_in }
             }
             ("attach", None) => return,
-            _ => HoldKind::Detach { from: None, falls: element.value("drop") == Some("ground") },
+            _ => {
+                let falls = element.value("drop") == Some("ground");
+                HoldKind::Detach { from: None, falls: falls.then(|| self.binder.script.ground()) }
+            }
         };
         self.binder.things[who].holds.push(HoldCue { action, begin: times.begin, kind });
     }

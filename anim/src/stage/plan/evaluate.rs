@@ -167,7 +167,7 @@ fn place_of(
         }
         HoldKind::Detach { from, falls } => {
             let from = from.unwrap_or(RigidPlace { position: DVec3::ZERO, rotation: glam::DQuat::IDENTITY });
-            if *falls { fallen(&from, time - hold.begin) } else { from }
+            falls.map_or(from, |ground| fallen(&from, time - hold.begin, ground))
         }
     }
 }

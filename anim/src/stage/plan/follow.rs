@@ -102,8 +102,8 @@ impl PathStride {
 #[derive(Clone, Debug)]
 pub(super) struct PathFollower {
     pub(super) path: Arc<StagePath>,
-    /// Whether its height is that of the ground.
-    pub(super) is_flat: bool,
+    /// The height of the ground on which it moves, meters; `None` where it has the heights of the path.
+    pub(super) flat_at: Option<f64>,
     /// Duration of the whole way; of one lap where it repeats without an end.
     pub(super) total: StageTime,
     /// Meters of the whole way, or of one lap.
@@ -164,9 +164,7 @@ impl PathFollower {
         };
         let mut placement = Placement { position: spot.position, facing };
         placement.position += placement.rotation() * aside;
-        if self.is_flat {
-            placement.position.y = 0.0;
-        }
+        placement.position.y = self.flat_at.unwrap_or(placement.position.y);
         placement
     }
 }

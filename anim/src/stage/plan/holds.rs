@@ -50,8 +50,8 @@ pub(super) enum HoldKind {
     Detach {
         /// The place where it was detached; `None` until that is computed.
         from: Option<RigidPlace>,
-        /// Whether it falls to the ground.
-        falls: bool,
+        /// The height of the ground to which it falls, meters; `None` where it stays in the air.
+        falls: Option<f64>,
     },
 }
 
@@ -89,10 +89,10 @@ impl HoldCue {
     }
 }
 
-/// Returns the place of what falls for `after`, from `start` to the ground at height 0; what starts below does not move.
-pub(super) fn fallen(start: &RigidPlace, after: StageTime) -> RigidPlace {
+/// Returns the place of what falls for `after`, from `start` to the ground at a height; what starts below does not move.
+pub(super) fn fallen(start: &RigidPlace, after: StageTime, ground: f64) -> RigidPlace {
     let seconds = after.seconds();
     let height = start.position.y;
-    let y = if height > 0.0 { (height - 0.5 * GRAVITY * seconds * seconds).max(0.0) } else { height };
+    let y = if height > ground { (height - 0.5 * GRAVITY * seconds * seconds).max(ground) } else { height };
     RigidPlace { position: DVec3::new(start.position.x, y, start.position.z), ..*start }
 }

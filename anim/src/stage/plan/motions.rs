@@ -299,7 +299,7 @@ impl MotionPlanner<'_, '_> {
         let distance = path.length() * laps.to_f64();
         let stride = self.stride(action);
         PathFollower {
-            is_flat: element.value("ground") == Some("plane"),
+            flat_at: (element.value("ground") == Some("plane")).then(|| self.binder.script.ground()),
             total,
             distance,
             is_endless,

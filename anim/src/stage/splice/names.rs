@@ -53,6 +53,21 @@ pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Option<TextSplices
     Some(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
 }
 
+/// Changes all references of a text to something that another text calls `id` now, and `old` before. The same text where there are none.
+///
+/// `None` for an id that is no name or that an element has.
+pub fn rename_references(tree: &ScriptTree, old: &str, id: &str) -> Option<TextSplices> {
+    let is_taken = tree.elements().iter().any(|element| element.value("id") == Some(id));
+    if is_taken || id == "prev" || !is_name(id) {
+        return None;
+    }
+    let names = HashMap::from([(old, id.to_owned())]);
+    let written = tree.elements().iter().filter(|element| !element.is_shared);
+    let attributes = written.flat_map(|element| &element.attributes).filter(|own| own.row.name != "id");
+    let text = tree.text();
+    Some(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
+}
+
 /// Returns the text of an element in which every id is a new one.
 pub(super) fn with_new_ids(tree: &ScriptTree, element: usize) -> Option<String> {
     let range = tree.elements().get(element)?.range.clone();

@@ -53,7 +53,9 @@ impl SceneAnswers {
         let main = checked.iter().find(|text| text.name == name).or(checked.first());
         let mut answer = of(main.ok_or("the document has no text")?);
         let Some(object) = answer.as_object_mut() else { return Ok(answer) };
-        object.insert("texts".to_owned(), checked.iter().map(of).collect());
+        if self.0.is_project() {
+            object.insert("texts".to_owned(), checked.iter().map(of).collect());
+        }
         let is_lines = |text: &&CheckedText| self.is_lines(texts, &text.name);
         if let Some(lines) = checked.iter().find(is_lines) {
             object.insert("lines".to_owned(), json!({"text": &*lines.name, "errors": rows(&lines.errors)}));

@@ -9,8 +9,8 @@ use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
 use dragonfly_anim::stage::StageScene;
-use dragonfly_anim::stage::gesture::{GestureRefusal, face_splices, place_splices, spliced_text};
-use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
+use dragonfly_anim::stage::gesture::{GestureRefusal, face_splices, place_splices, set_on_thing};
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
 use dragonfly_document::history::Gesture;
@@ -184,8 +184,7 @@ pub(super) fn spliced(
     if !workspace.stage.is_new(&splices) {
         return Ok(None);
     }
-    let text = spliced_text(&base.script, splices)?;
-    Ok(Some(ScriptChange { from: Arc::clone(base.text()), text, label, gesture: Some(gesture) }))
+    base.spliced(&splices, label, Some(gesture)).map(Some)
 }
 
 /// The scene at the start of a drag, with its things at the time shown.
@@ -284,7 +283,7 @@ impl BaseMoment<'_> {
     fn set(&self, id: &str, attribute: &str, value: &str) -> Result<TextSplices, GestureRefusal> {
         let script = &self.base.script;
         let splices =
-            script.thing_element(id).and_then(|own| set_attribute(script.tree(), own, attribute, value));
+            script.thing_element(id).and_then(|own| set_on_thing(script, own, attribute, Some(value)));
         splices.ok_or_else(|| GestureRefusal(format!("{attribute} of {id} cannot be written here")))
     }
 

@@ -1,11 +1,11 @@
 //! Things on the ground: while they are moved, by a command, and where a file is dropped.
 
 use super::scene_gizmo::{BaseMoment, joined};
-use super::scene_text::gesture;
+use super::scene_text::step;
 use crate::panels::request::Effect;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text};
+use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_document::SceneView;
 use dragonfly_picture::PosedScene;
 use dragonfly_picture::gizmo::GizmoView;
@@ -32,7 +32,7 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
     let selected: Vec<Box<str>> = selected.collect();
     let things = selected.iter().filter_map(|id| scene.plan.as_ref()?.thing_called(id));
     let heights = heights_on_ground(&scene, things, time.seconds());
-    gesture(workspace, "Drop to the ground", |base| {
+    step(workspace, |base| {
         let mut state = base.plan.new_scene();
         base.plan.scene_at(time, &mut state);
         let things = selected.iter().filter_map(|id| base.plan.thing_called(id));
@@ -48,7 +48,7 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
             moment.placed(thing, state.things[thing].transform.translation.with_y(height), None)
         };
         let parts: Result<Vec<_>, GestureRefusal> = standing.into_iter().map(placed).collect();
-        spliced_text(&base.script, joined(parts?)?)
+        base.spliced(&joined(parts?)?, "Drop to the ground", None)
     })
 }
 
@@ -60,6 +60,7 @@ pub(super) fn heights_on_ground(
     seconds: f64,
 ) -> BTreeMap<usize, f32> {
     let Some(plan) = &scene.plan else { return BTreeMap::new() };
+    let ground = scene.ground() as f32;
     let known = things.into_iter().filter_map(|thing| Some((thing, plan.things().get(thing)?.kind)));
     let known: BTreeMap<usize, &str> = known.collect();
     let props: BTreeSet<usize> =
@@ -68,10 +69,10 @@ pub(super) fn heights_on_ground(
     let height_of_prop = |thing: usize| {
         let posed = posed.as_ref()?;
         let (around, place) = (posed.box_of(thing), posed.state().things.get(thing)?.transform.translation.y);
-        Some(if around.is_empty() { 0.0 } else { place - around.min.y })
+        Some(if around.is_empty() { ground } else { place - around.min.y + ground })
     };
     let height = |(thing, kind): (usize, &str)| match kind {
-        "role" | "mark" => Some((thing, 0.0)),
+        "role" | "mark" => Some((thing, ground)),
         "prop" => Some((thing, height_of_prop(thing)?)),
         // Cameras, lights and effects are in the air; paths have no place.
         _ => None,
@@ -106,8 +107,9 @@ pub(super) fn pointed(workspace: &Workspace) -> Option<DVec3> {
     let at = pointer.map_or(0.5 * size, |at| at - corner);
     let camera = workspace.camera.camera();
     let (origin, direction) = GizmoView::new(camera, size).ray(at.as_dvec2());
-    let along = -origin.y / direction.y;
+    let ground = workspace.read().scene().map_or(0.0, SceneView::ground);
+    let along = (ground - origin.y) / direction.y;
     let is_near = along > 0.0 && along < FARTHEST * f64::from(camera.distance);
-    let place = (origin + direction * along).with_y(0.0);
+    let place = (origin + direction * along).with_y(ground);
     (direction.y.abs() > LEAST_SLOPE && is_near && place.is_finite()).then_some(place)
 }

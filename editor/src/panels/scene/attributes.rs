@@ -6,14 +6,13 @@ use super::super::request::Request;
 use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
+use super::renaming::renamed;
 use super::thing_icon::icon;
-use super::{SceneBase, SceneRequest, ScriptChange};
-use dragonfly_anim::stage::gesture::GestureRefusal;
+use super::{SceneBase, SceneRequest};
+use dragonfly_anim::stage::gesture::{GestureRefusal, set_on_thing};
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
-use dragonfly_anim::stage::splice::{remove_attribute, rename, set_attribute};
 use dragonfly_anim::stage::table::AttributeRow;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
-use std::sync::Arc;
 
 /// The fields of the selected action or thing.
 #[derive(Debug, Default)]
@@ -84,8 +83,7 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
         icon(element.row.name).paint(ui.painter(), mark, theme.accent);
         let name = element.value("id").or_else(|| element.value("who")).unwrap_or_default();
         ui.label(RichText::new(format!("{} {name}", element.row.name)).color(theme.text));
-        let line = script.tree().place(element.range.start).line;
-        ui.label(RichText::new(format!("line {line}")).small().color(theme.faint));
+        ui.label(RichText::new(line_of(script, element)).small().color(theme.faint));
     });
     ui.horizontal(|ui| {
         ui.add_space(2.0 * GRID);
@@ -93,6 +91,18 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
         ui.add(egui::Label::new(help).wrap());
     });
     ui.add_space(GRID);
+}
+
+/// Returns the line of an element, which may be in the project.
+fn line_of(script: &StageScript, element: &ScriptElement) -> String {
+    let shared = script.project().and_then(|project| {
+        let own = &project.tree().elements()[project.element_of(element)?];
+        Some(project.tree().place(own.range.start).line)
+    });
+    match shared {
+        Some(line) => format!("line {line} of the project"),
+        None => format!("line {}", script.tree().place(element.range.start).line),
+    }
 }
 
 impl SceneAttributes {
@@ -173,21 +183,15 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         if !value.is_empty() && !row.value.accepts(value, base.script.rate()) {
             return Err(refused(format!("{}=\"{value}\" is not {}", row.name, row.value.expected)));
         }
-        let splices = match value {
-            "" => remove_attribute(tree, element, row.name),
-            name if is_name => rename(tree, element, name),
-            value => set_attribute(tree, element, row.name, value),
-        };
-        let text = splices.map(|splices| splices.apply(tree.text()));
-        let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
+        if is_name && !value.is_empty() {
+            return Ok(SceneRequest::Text(renamed(scene, &base, element, value)?));
+        }
+        let written = Some(value).filter(|value| !value.is_empty());
+        let splices = set_on_thing(&base.script, element, row.name, written);
+        let splices =
+            splices.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
         // A reference to something that does not exist is refused with its reason.
-        base.script.reread(text.as_str())?;
-        Ok(SceneRequest::Text(ScriptChange {
-            from: Arc::clone(tree.text()),
-            text,
-            label: "Change value",
-            gesture: None,
-        }))
+        Ok(SceneRequest::Text(base.spliced(&splices, "Change value", None)?))
     };
     done().unwrap_or_else(|refusal| SceneRequest::Refused(refusal.to_string()))
 }

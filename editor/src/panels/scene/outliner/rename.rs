@@ -3,9 +3,8 @@
 use crate::panels::context::PanelContext;
 use crate::panels::name_field::{INDENT, NameField, NameFieldEnd};
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
+use crate::panels::scene::{SceneBase, SceneRequest};
 use crate::panels::style::ROW;
-use dragonfly_anim::stage::splice::rename;
 use egui::{Rect, Sense, TextStyle, Ui, pos2, vec2};
 
 /// The thing whose name is typed, by its id.
@@ -51,16 +50,9 @@ fn renamed(context: &PanelContext<'_>, thing: &str, name: &str) -> SceneRequest 
         Ok(base) => base,
         Err(refusal) => return SceneRequest::Refused(refusal.to_string()),
     };
-    let tree = base.script.tree();
-    match base.script.thing_element(thing).and_then(|element| rename(tree, element, name)) {
-        Some(splices) => SceneRequest::Text(ScriptChange {
-            from: std::sync::Arc::clone(tree.text()),
-            text: splices.apply(tree.text()),
-            label: "Rename",
-            gesture: None,
-        }),
-        None => SceneRequest::Refused(format!(
-            "\"{name}\" cannot be a name here: it is used already, or has other characters than letters, digits, _ and -"
-        )),
+    let Some(element) = base.script.thing_element(thing) else { return SceneRequest::Rename(None) };
+    match super::super::renaming::renamed(scene, &base, element, name) {
+        Ok(change) => SceneRequest::Text(change),
+        Err(refusal) => SceneRequest::Refused(refusal.to_string()),
     }
 }

@@ -21,7 +21,13 @@ pub(super) fn gesture(
     let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene));
     let done = base.and_then(|base| {
         let text = act(&base.scene())?;
-        Ok(ScriptChange { from: std::sync::Arc::clone(base.text()), text, label, gesture: None })
+        Ok(ScriptChange {
+            from: std::sync::Arc::clone(base.text()),
+            text,
+            also: Vec::new(),
+            label,
+            gesture: None,
+        })
     });
     requests.push(Request::Scene(match done {
         Ok(change) => SceneRequest::Text(change),
