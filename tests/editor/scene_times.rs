@@ -10,12 +10,15 @@ use std::path::{Path, PathBuf};
 /// A mast that rises two meters a second for four seconds, with a flag a meter in front of it.
 const MAST: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
 "nodes":[{"name":"mast","children":[1]},{"name":"flag","translation":[0,0,1]}],
-"buffers":[{"byteLength":32,"uri":"mast.bin"}],
-"bufferViews":[{"buffer":0,"byteLength":8},{"buffer":0,"byteOffset":8,"byteLength":24}],
+"buffers":[{"byteLength":56,"uri":"mast.bin"}],
+"bufferViews":[{"buffer":0,"byteLength":8},{"buffer":0,"byteOffset":8,"byteLength":24},
+{"buffer":0,"byteOffset":32,"byteLength":24}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[4]},
-{"bufferView":1,"componentType":5126,"count":2,"type":"VEC3"}],
-"animations":[{"name":"Rise","samplers":[{"input":0,"output":1}],
-"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}]}]}"#;
+{"bufferView":1,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}],
+"animations":[{"name":"Rise","samplers":[{"input":0,"output":1},{"input":0,"output":2}],
+"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}},
+{"sampler":1,"target":{"node":1,"path":"translation"}}]}]}"#;
 
 /// None of these times is a number of single precision.
 const SCENE: &str = r#"<script version="1" fps="30">
@@ -36,8 +39,9 @@ fn text(path: &Path) -> &str {
 
 fn scene(name: &str) -> (Folder, PathBuf) {
     let folder = Folder::new(name);
-    let numbers: [f32; 8] = [0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 8.0, 0.0];
-    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let times = [0.0_f32, 4.0];
+    let places = [0.0_f32, 0.0, 0.0, 0.0, 8.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0];
+    let bytes: Vec<u8> = times.iter().chain(&places).flat_map(|number| number.to_le_bytes()).collect();
     let box_model = dragonfly_kit::folder::data("gltf/box_sparse.glb");
     for (file, bytes) in [
         ("mast.gltf", MAST.as_bytes().to_vec()),
