@@ -45,8 +45,8 @@ fn every_text_of_the_examples_is_what_the_schemas_allow() {
     let folder = Folder::new("scene-schemas");
     for (kind, names) in [
         ("project", &["duel.meproj", "walk.meproj", "crowd.meproj"][..]),
-        ("script", &["duel.xml", "walk.xml", "crowd.xml"]),
-        ("lines", &["walk.lines.xml"]),
+        ("script", &["duel.xml", "walk.xml", "crowd.xml"][..]),
+        ("lines", &["walk.lines.xml"][..]),
     ] {
         let schema = folder.join("schema.rng");
         std::fs::write(&schema, run(["script", "--schema", kind]).expect(0).text()).expect("a file");
