@@ -12,14 +12,14 @@ use egui::{Key, Modifiers, Pos2, Rect, pos2};
 use egui_kittest::kittest::Queryable;
 
 /// The lanes of a window: the rectangle, the places in it, and the position of each time.
-struct Lanes {
-    canvas: Rect,
-    layout: SceneLaneLayout,
-    scale: TimeScale,
+pub(crate) struct Lanes {
+    pub(crate) canvas: Rect,
+    pub(crate) layout: SceneLaneLayout,
+    pub(crate) scale: TimeScale,
 }
 
 impl Lanes {
-    fn of(window: &Window) -> Self {
+    pub(crate) fn of(window: &Window) -> Self {
         let actions = window
             .state()
             .state
@@ -41,7 +41,7 @@ impl Lanes {
     }
 
     /// Returns the rectangle of the bar of an action.
-    fn bar(&self, window: &Window, action: usize) -> Rect {
+    pub(crate) fn bar(&self, window: &Window, action: usize) -> Rect {
         let lanes = window.state().state.read().scene_editing.lanes().clone();
         let (index, bar) = lanes
             .list
@@ -58,7 +58,7 @@ fn window() -> Window {
 }
 
 /// Drags from a point by some seconds.
-fn drag(window: &mut Window, from: Pos2, seconds: f64, modifiers: Modifiers) {
+pub(crate) fn drag(window: &mut Window, from: Pos2, seconds: f64, modifiers: Modifiers) {
     let by = (seconds * Lanes::of(window).scale.per_second()) as f32;
     press(window, from);
     for step in 1..=4 {

@@ -21,10 +21,12 @@ pub(in crate::stage) struct PlacedGround {
     pub(in crate::stage) scale: f64,
 }
 
-/// All ground props of a scene.
+/// All ground of a scene.
 #[derive(Clone, Debug, Default)]
 pub(in crate::stage) struct SceneGround {
     pub(in crate::stage) props: Vec<PlacedGround>,
+    /// The height of the plane beside the props, meters.
+    pub(in crate::stage) plane: f64,
 }
 
 impl SceneGround {

@@ -243,7 +243,7 @@ impl StandingFeet<'_> {
     fn mesh(&self) -> Option<&SceneGround> {
         match &self.follower.ground {
             WayGround::Mesh(ground) => Some(ground),
-            WayGround::Off | WayGround::Plane => None,
+            WayGround::Off | WayGround::Plane(_) => None,
         }
     }
 
@@ -254,10 +254,8 @@ impl StandingFeet<'_> {
 
     /// Returns the position of a foot with the height over the ground that it has over the role, whose height is `role`.
     fn over_ground(&self, role: f64, foot: DVec3) -> DVec3 {
-        if self.mesh().is_none() {
-            return foot;
-        }
-        let ground = self.ground_under(role, foot).map_or(0.0, |surface| surface.height);
+        let Some(mesh) = self.mesh() else { return foot };
+        let ground = self.ground_under(role, foot).map_or(mesh.plane, |surface| surface.height);
         foot.with_y(ground + foot.y - role)
     }
 
