@@ -47,7 +47,7 @@ fn a_new_scene_is_a_project_of_two_different_models_with_their_hashes() {
     }
     let script = fs::read_to_string(folder.join("scene.xml")).expect("a script");
     assert!(script.contains("model=\"rogue\"") && script.contains("model=\"rival\""), "{script}");
-    // Again: another project beside it, with the same figures; one that was changed is not overwritten.
+    // Again: another project in the folder, with the same figures; one that was changed is not overwritten.
     let second = made(|address| make_demo(folder.join(""), address));
     assert_eq!(second.file_name().and_then(|name| name.to_str()), Some("scene-2.meproj"));
     assert_eq!(models(&second), listed);

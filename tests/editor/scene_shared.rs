@@ -1,4 +1,4 @@
-//! The cast of a project is edited in the window as that of a script is: each gesture is one step, in the text in which the thing stands, and names
+//! The cast of a project is edited in the window as that of a script is: each gesture is one step, in the text that has the thing, and names
 //! change in all scripts.
 
 use crate::scene_bench::{named_text, new_lines, shared, text};
@@ -128,7 +128,7 @@ fn a_shared_thing_gets_its_new_name_in_all_scripts_in_one_step() {
     assert_eq!(window.state().steps(), (1, 1));
     assert!(window.query_by_label("front, camera").is_some());
     undo(&mut window);
-    // What names it in the project follows, too.
+    // References in the project follow, too.
     window.get_by_label("door, mark").click();
     window.run_steps(2);
     window.key_press(Key::F2);

@@ -1,6 +1,6 @@
 //! Things of a cast, changed where they are written: in the script, or in the project whose scripts share them.
 //!
-//! Replacements for both texts are one [`TextSplices`]: those of the project are behind all bytes that a script can have, and
+//! Replacements for both texts are one [`TextSplices`]: those of the project have [`SHARED`] added to their bytes, and
 //! [`spliced_script`] puts each into its text.
 
 use super::scene::{GestureRefusal, refused};

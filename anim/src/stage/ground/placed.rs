@@ -25,7 +25,7 @@ pub(in crate::stage) struct PlacedGround {
 #[derive(Clone, Debug, Default)]
 pub(in crate::stage) struct SceneGround {
     pub(in crate::stage) props: Vec<PlacedGround>,
-    /// The height of the plane beside the props, meters.
+    /// The height of the plane, which is ground where there are no props, meters.
     pub(in crate::stage) plane: f64,
 }
 

@@ -247,7 +247,7 @@ impl StagePlan {
         }));
     }
 
-    /// Returns the height of the plane that is ground beside the ground props, meters.
+    /// Returns the height of the plane that is ground where there are no ground props, meters.
     pub fn ground_plane(&self) -> f64 {
         self.ground.plane
     }

@@ -15,7 +15,7 @@ pub(super) struct NewestText {
     sent: Option<SentText>,
     /// The gesture in progress, with the text at its start.
     gesture: Option<(Gesture, Arc<str>)>,
-    /// What that gesture changed last in other texts.
+    /// The last changes of that gesture in other texts.
     also: Vec<EditScript>,
 }
 
