@@ -4,6 +4,7 @@ use crate::workbench::{Window, Workbench};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::ScriptContext;
 use dragonfly_anim::stage::{LiveStage, StageAssets, StageModel};
 use dragonfly_document::adapter::{ModelAdapter, TextFile, TextFiles};
 use dragonfly_document::history::Edited;
@@ -83,7 +84,13 @@ impl SceneStage {
             self.assets.add_line(line.id.as_deref().unwrap(), line.samples().points());
         }
         let text = &script.text;
-        self.live.update(Arc::clone(text), &self.assets);
+        let context = ScriptContext { project: project.clone(), ..ScriptContext::default() };
+        self.live.update_in(Arc::clone(text), &context, &self.assets);
+        let errors = self.live.errors().to_vec();
+        let (errors, shared) = match &project {
+            Some(project) => project.separated(errors),
+            None => (errors, Vec::new()),
+        };
         Arc::new(SceneView {
             text: Arc::clone(text),
             name: Arc::clone(&script.name),
@@ -92,7 +99,8 @@ impl SceneStage {
             lines: lines.map(Arc::new),
             script: self.live.script().cloned(),
             plan: self.live.plan().cloned(),
-            errors: self.live.errors().into(),
+            errors: errors.into(),
+            shared_errors: shared.into(),
             models: Arc::clone(&self.models),
             ..SceneView::default()
         })
@@ -112,6 +120,12 @@ pub(crate) fn project(script: &str, lines: &str) -> Workbench {
 </project>
 "#;
     let files = [("scene.meproj", main), ("scene.xml", script), ("scene.lines.xml", lines)];
+    open(files.map(|(name, text)| TextFile { name: name.into(), text: text.into() }).into_iter().collect())
+}
+
+/// Opens a project whose scripts `scene.xml` and `end.xml` share a cast.
+pub(crate) fn shared(project: &str, script: &str, end: &str) -> Workbench {
+    let files = [("scene.meproj", project), ("scene.xml", script), ("end.xml", end)];
     open(files.map(|(name, text)| TextFile { name: name.into(), text: text.into() }).into_iter().collect())
 }
 

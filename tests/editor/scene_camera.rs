@@ -112,6 +112,7 @@ fn a_camera_stays_attached_while_the_document_has_not_answered() {
     let typed = ScriptChange {
         from: FOXES.into(),
         text: FOXES.replace("The End", "Fin"),
+        also: Vec::new(),
         label: ScriptLabel::Type,
         gesture: None,
     };
@@ -176,8 +177,13 @@ fn a_text_that_comes_after_its_drag_was_cancelled_is_not_shown() {
     let gesture = window.state().state.read().new_gesture();
     let moved = |to: &str| {
         let text = FOXES.replace("at=\"0.6 0 0.8\"", &format!("at=\"{to}\""));
-        let change =
-            ScriptChange { from: FOXES.into(), text, label: ScriptLabel::MoveThing, gesture: Some(gesture) };
+        let change = ScriptChange {
+            from: FOXES.into(),
+            text,
+            also: Vec::new(),
+            label: ScriptLabel::MoveThing,
+            gesture: Some(gesture),
+        };
         Request::Scene(SceneRequest::Text(change))
     };
     let change = |window: &mut Window, request: Request| {

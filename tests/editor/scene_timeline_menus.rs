@@ -287,6 +287,7 @@ fn an_error_is_marked_in_the_margin_of_its_line() {
     let change = dragonfly::panels::scene::ScriptChange {
         from: FOXES.into(),
         text: wrong.clone(),
+        also: Vec::new(),
         label: dragonfly_document::edit::ScriptLabel::Type,
         gesture: None,
     };

@@ -64,13 +64,13 @@ fn the_help_of_the_pose_line_names_the_command_whose_keys_begin_it_whatever_they
 fn a_demo_scene_that_is_not_made_says_so_and_why() {
     let folder = Folder::new("demo-scene");
     // A folder where the model would be.
-    std::fs::create_dir(folder.join("dragonfly.glb")).expect("a folder");
+    std::fs::create_dir_all(folder.join("figures/rogue.gltf")).expect("a folder");
     let (_thread, address, answers) = forwarding();
     make_demo(folder.join("."), &address).expect("a job");
     let answer = answers.recv_timeout(Duration::from_secs(30)).expect("an answer");
     let reason = answer.expect_err("no scene");
     assert!(
-        reason.starts_with("No scene was made: Cannot read ") && reason.contains("dragonfly.glb"),
+        reason.starts_with("No scene was made: Cannot read ") && reason.contains("rogue.gltf"),
         "{reason}"
     );
 }

@@ -30,7 +30,7 @@ use super::script::{
     ElementOrigin, ErrorList, SHARED, ScriptElement, ScriptError, ScriptTree, read_tree, suggestion,
 };
 use super::table::{ElementGroup, PROJECTS};
-use super::time::StageRate;
+use super::time::{Decimal, StageRate, StageTime, parse_time};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -71,6 +71,23 @@ impl StageProject {
     /// Returns the frames per second of what does not say so itself.
     pub fn rate(&self) -> StageRate {
         self.tree.elements()[0].value("fps").and_then(StageRate::parse).unwrap_or_default()
+    }
+
+    /// Returns its title; `None` where it has none.
+    pub fn name(&self) -> Option<&str> {
+        self.tree.elements()[0].value("name").filter(|name| !name.is_empty())
+    }
+
+    /// Returns the part of its scenes that is shown: its start, and its end, each where it is stated.
+    pub fn range(&self) -> [Option<StageTime>; 2] {
+        ["start", "end"].map(|name| parse_time(self.tree.elements()[0].value(name)?, self.rate()))
+    }
+
+    /// Returns the height of the ground in meters.
+    pub fn ground(&self) -> f64 {
+        let scene = self.elements_called("scene").next();
+        let height = scene.and_then(|scene| Decimal::parse(scene.value("ground")?));
+        height.map_or(0.0, Decimal::to_f64)
     }
 
     /// Returns the elements called `name` outside of the cast, in the order of the text.

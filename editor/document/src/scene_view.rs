@@ -58,6 +58,16 @@ pub enum SceneModel {
 }
 
 impl SceneView {
+    /// Returns the height of the ground in meters.
+    pub fn ground(&self) -> f64 {
+        self.script.as_ref().map_or(0.0, |script| script.ground())
+    }
+
+    /// Returns whether the scene is one of a project, also of one whose first text had errors.
+    pub fn is_of_project(&self) -> bool {
+        self.texts.list().first().is_some_and(|main| main.name != self.name)
+    }
+
     /// Returns whether what plays is the newest text, with the cast of the newest project.
     pub fn is_current(&self) -> bool {
         let wrong = [&self.errors, &self.shared_errors, &self.project_errors];

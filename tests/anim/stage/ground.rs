@@ -7,6 +7,8 @@ use dragonfly_anim::data::{
 };
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{HitSettings, Ray, ray_open};
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::{GROUND_TRIANGLES, LiveStage, StageAssets, StageModel, StagePlan};
 use dragonfly_kit::counting::count;
 use dragonfly_kit::random::{Random, seed};
@@ -101,6 +103,36 @@ fn place(plan: &StagePlan, time: f64) -> DVec3 {
 fn check(plan: &StagePlan, time: f64, height: f64) {
     let found = place(plan, time);
     assert!((found.y - height).abs() < 1e-5, "{found} at {time} s instead of {height}");
+}
+
+#[test]
+fn beside_the_ground_props_ways_and_what_falls_are_on_the_plane_of_the_project() {
+    let text = walk("-4 0 1  6 0 1", &[""]).replace(
+        "</cast>",
+        "<mark id=\"cup\" at=\"9 1 0\"/><mark id=\"cap\" at=\"0 9 1\"/><prop id=\"bag\" model=\"a.glb\"/><prop id=\"hat\" model=\"a.glb\"/></cast>\
+         <attach who=\"bag\" to=\"cup\"/><detach who=\"bag\" drop=\"ground\" begin=\"1\"/>\
+         <attach who=\"hat\" to=\"cap\"/><detach who=\"hat\" drop=\"ground\" begin=\"1\"/>",
+    );
+    let assets = with_models(vec![sheet(1, 4.0, |x, z| 0.25 * x + 0.5 * z + 2.0)]);
+    for height in [-0.75, 0.0, 1.5] {
+        let project = format!("<project version=\"1\"><scene ground=\"{height}\"/></project>");
+        let project = StageProject::read(project).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
+        let script = StageScript::read_of(text.as_str(), Some(&project));
+        let script = script.unwrap_or_else(|errors| panic!("{}", listed(&errors)));
+        let plan = StagePlan::new(&script, &assets).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
+        assert_eq!(plan.ground_plane(), height);
+        // At x = t - 4; the sheet is from -2 to 2.
+        check(&plan, 1.0, height);
+        check(&plan, 4.0, 2.5);
+        check(&plan, 6.5, height);
+        let mut scene = plan.new_scene();
+        plan.scene_at(seconds(5.0), &mut scene);
+        let fallen =
+            |id: &str| f64::from(scene.things[plan.thing_called(id).unwrap()].transform.translation.y);
+        let wanted = if height < 1.0 { height } else { 1.0 };
+        assert!((fallen("bag") - wanted).abs() < 1e-5, "what is below the plane stays: {}", fallen("bag"));
+        assert!((fallen("hat") - 2.5).abs() < 1e-5, "it falls on the sheet: {}", fallen("hat"));
+    }
 }
 
 #[test]

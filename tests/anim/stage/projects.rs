@@ -6,6 +6,7 @@ use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, set_attribute};
+use dragonfly_anim::stage::time::StageTime;
 
 /// The project of the reference.
 pub(super) const PROJECT: &str = include_str!("../../data/stage/duel.meproj");
@@ -131,4 +132,34 @@ fn a_small_change_of_a_project_changes_one_line() {
         insert(project.tree(), ElementPlace::After(at("edits")), &edits).expect("a place").apply(PROJECT);
     assert_eq!(changed(&added), (0, 1));
     assert!(read(&added).files().contains(&"duel.edits/ben.jsonl"));
+}
+
+#[test]
+fn things_fall_to_the_ground_of_the_project_and_walk_on_it_and_its_name_and_range_are_read() {
+    let text = "<project version=\"1\" name=\"A fox\" fps=\"30\" start=\"15f\" end=\"0:02.5\"><scene ground=\"-0.75\"/></project>";
+    let project = read(text);
+    let range = project.range().map(|time| time.expect("a time").seconds());
+    assert_eq!((project.name(), range, project.ground()), (Some("A fox"), [0.5, 2.5], -0.75));
+    let none = read("<project version=\"1\"/>");
+    assert_eq!((none.name(), none.range(), none.ground()), (None, [None, None], 0.0));
+    let script = "<script version=\"1\"><cast><role id=\"anna\" model=\"a.glb\" scale=\"0.01\" at=\"0 2 0\"/>\
+        <mark id=\"cup\" at=\"0 1 0\"/><prop id=\"bag\" model=\"a.glb\" at=\"0 3 0\"/><path id=\"way\" points=\"0 2 0  4 2 0\"/></cast>\
+        <move who=\"anna\" path=\"way\" speed=\"1\" ground=\"plane\" feet=\"free\"/>\
+        <attach who=\"bag\" to=\"cup\"/><detach who=\"bag\" drop=\"ground\" begin=\"1\"/></script>";
+    for (project, ground) in [(Some(&project), -0.75), (Some(&none), 0.0), (None, 0.0)] {
+        let script =
+            StageScript::read_of(script, project).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
+        let plan =
+            StagePlan::new(&script, &assets(&fox())).unwrap_or_else(|errors| panic!("{}", listed(&errors)));
+        let mut scene = plan.new_scene();
+        let mut height = |id: &str, seconds: f64| {
+            plan.scene_at(StageTime::from_seconds(seconds), &mut scene);
+            scene.things[plan.thing_called(id).expect(id)].transform.translation.y
+        };
+        assert!((height("anna", 2.0) - ground).abs() < 1e-5);
+        assert!((height("bag", 0.5) - 1.0).abs() < 1e-5, "it is held");
+        // Half of 9.81 m/s² times a fifth of a second squared.
+        assert!((height("bag", 1.2) - (1.0 - 0.5 * 9.81 * 0.04)).abs() < 2e-3, "{}", height("bag", 1.2));
+        assert!((height("bag", 3.0) - ground).abs() < 1e-5);
+    }
 }

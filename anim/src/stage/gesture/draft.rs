@@ -114,7 +114,10 @@ pub(super) fn keeps_prev(
 ///
 /// # Errors
 ///
-/// The result would be no script, or its times would depend on themselves.
+/// The result would be no script, its times would depend on themselves, or a replacement is one of the project.
 pub fn spliced_text(script: &StageScript, splices: TextSplices) -> Result<String, GestureRefusal> {
+    if splices.has_shared() {
+        return refused("It belongs to the project: change it there");
+    }
     ScriptDraft::of(script).then(|_| Some(splices))?.finish()
 }

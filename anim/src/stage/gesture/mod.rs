@@ -6,7 +6,8 @@
 //!
 //! Each function changes as few attributes as it can; comments, layout and spelling of the rest stay ([`splice`](super::splice)). The new text
 //! is always a script that can be read and whose times do not depend on themselves. Several things at once are changed by
-//! the functions that return splices, whose results [`spliced_text`] applies and checks together.
+//! the functions that return splices, whose results [`spliced_script`] applies and checks together. It changes the texts of things of a project,
+//! too; gestures that return one text refuse those, because they are in another text.
 //!
 //! Where a gesture makes a clip overlap the one before it in its lane, the `fade-in` of the later one is as long as the overlap, as in other
 //! timelines; it follows the overlap unless it was given another length.
@@ -29,11 +30,12 @@
 //!
 //! Times between actions are kept where the script has them: in a `seq`, what follows moves along unless [`Followers::Stay`] is asked for,
 //! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
-//! `prev` would have another one before it is refused, and so is one of what belongs to the project or to an included file: it is in another text.
+//! `prev` would have another one before it is refused, and so is one of what belongs to an included file: it is in another text.
 
 mod angles;
 mod attributes;
 mod begin;
+mod cast;
 mod copying;
 mod draft;
 mod holding;
@@ -52,6 +54,7 @@ mod trim;
 
 pub use angles::{facing_and_tilt, turn_about_axes};
 pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
+pub use cast::{delete_thing, duplicate_thing, rename_thing, set_on_thing, spliced_script};
 pub use copying::{copied_clips, duplicate_clips, is_copied_clips, paste_clips};
 pub use draft::spliced_text;
 pub use holding::{HeldGrip, attach_splices, attach_thing, detach_splices, grip_splices};
@@ -59,10 +62,10 @@ pub use insert::{add_clip, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
 pub use new_action::{add_new_action, wait_after};
 pub use other_lane::{move_clips_to_lane, move_to_lane};
-pub use path_points::{move_path_point, path_points_splices, written_points};
+pub use path_points::{move_path_point, path_point_splices, path_points_splices, written_points};
 pub use place_keys::key_place_splices;
 pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
-pub use scene::{Followers, GestureRefusal, GestureScene, in_this_text};
+pub use scene::{Followers, GestureRefusal, GestureScene, in_scene_texts, in_this_text};
 pub use several::{delete_clips, move_clips};
 pub use trim::{trim_end, trim_start};

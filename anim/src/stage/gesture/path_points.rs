@@ -1,10 +1,11 @@
 //! Points of paths, moved.
 
-use super::draft::ScriptDraft;
-use super::scene::{GestureRefusal, in_this_text, refused};
+use super::cast::set_on_thing;
+use super::draft::spliced_text;
+use super::scene::{GestureRefusal, NO_PLACE, in_scene_texts, in_this_text, refused};
 use crate::stage::line::points_text;
-use crate::stage::script::StageScript;
-use crate::stage::splice::{TextSplice, TextSplices, set_attribute};
+use crate::stage::script::{ElementOrigin, SHARED, StageScript};
+use crate::stage::splice::{TextSplice, TextSplices};
 use crate::stage::table::points;
 use glam::DVec3;
 use std::ops::Range;
@@ -20,26 +21,52 @@ pub fn move_path_point(
     index: usize,
     position: DVec3,
 ) -> Result<String, GestureRefusal> {
+    let splices = path_point_splices(script, path, index, position)?;
+    if let Some(element) = script.thing_element(path) {
+        in_this_text(script.tree(), element)?;
+    }
+    spliced_text(script, splices)
+}
+
+/// Returns the replacements of [`move_path_point`]; also those of a path of the project. The new text is not checked.
+///
+/// # Errors
+///
+/// As [`move_path_point`].
+pub fn path_point_splices(
+    script: &StageScript,
+    path: &str,
+    index: usize,
+    position: DVec3,
+) -> Result<TextSplices, GestureRefusal> {
     let tree = script.tree();
     let element = script.thing_element(path).filter(|&element| tree.elements()[element].row.name == "path");
     let Some(element) = element else { return refused(format!("No path of the cast has the id \"{path}\"")) };
-    in_this_text(tree, element)?;
+    in_scene_texts(tree, element)?;
     let Some(attribute) = tree.elements()[element].attribute("points") else {
         return refused(format!("{path} follows a line: its points are those of the line"));
     };
     let written = attribute.value_range.clone();
-    let Some(range) = point_range(tree.text(), written, index) else {
+    let range = match script.project().filter(|_| tree.elements()[element].origin == ElementOrigin::Project) {
+        Some(project) => {
+            let own = written.start - SHARED..written.end - SHARED;
+            let range = point_range(project.tree().text(), own, index);
+            range.map(|range| range.start + SHARED..range.end + SHARED)
+        }
+        None => point_range(tree.text(), written, index),
+    };
+    let Some(range) = range else {
         return refused(format!("{path} has no such point"));
     };
     if position.abs().max_element() >= 1e6 {
         return refused("The position is too far away");
     }
     let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
-    let splices = TextSplices::new(vec![TextSplice { range, text: point }]);
-    ScriptDraft::of(script).then(|_| splices)?.finish()
+    TextSplices::new(vec![TextSplice { range, text: point }])
+        .ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
 }
 
-/// Returns the replacements that give a path of the cast other points, meters, to 0.1 mm.
+/// Returns the replacements that give a path of the cast other points, meters, to 0.1 mm; also those of a path of the project.
 ///
 /// # Errors
 ///
@@ -52,11 +79,11 @@ pub fn path_points_splices(
     let Some(element) = script.thing_element(path).filter(|_| written_points(script, path).is_some()) else {
         return refused(format!("{path} has no points of its own: move those of its line"));
     };
-    in_this_text(script.tree(), element)?;
+    in_scene_texts(script.tree(), element)?;
     if points.iter().any(|point| point.abs().max_element() >= 1e6) {
         return refused("The position is too far away");
     }
-    let splices = points_text(points).and_then(|text| set_attribute(script.tree(), element, "points", &text));
+    let splices = points_text(points).and_then(|text| set_on_thing(script, element, "points", Some(&text)));
     splices.ok_or_else(|| GestureRefusal("The position is not a number".to_owned()))
 }
 

@@ -1,8 +1,9 @@
 //! Things put somewhere else.
 
+use super::cast::set_on_thing;
 use super::draft::spliced_text;
-use super::scene::{GestureRefusal, GestureScene, NO_PLACE, in_this_text, refused};
-use crate::stage::splice::{TextSplices, set_attribute};
+use super::scene::{GestureRefusal, GestureScene, NO_PLACE, in_scene_texts, in_this_text, refused};
+use crate::stage::splice::TextSplices;
 use crate::stage::table::vector;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::number_text;
@@ -21,7 +22,15 @@ pub fn place_thing(
     time: StageTime,
     position: DVec3,
 ) -> Result<String, GestureRefusal> {
-    spliced_text(scene.script, place_splices(scene, thing, time, position, None)?)
+    text_of(scene, thing, place_splices(scene, thing, time, position, None)?)
+}
+
+/// Returns the script with replacements; refuses those of the project.
+fn text_of(scene: &GestureScene<'_>, thing: &str, splices: TextSplices) -> Result<String, GestureRefusal> {
+    if let Some(element) = scene.script.thing_element(thing).filter(|_| splices.has_shared()) {
+        in_this_text(scene.script.tree(), element)?;
+    }
+    spliced_text(scene.script, splices)
 }
 
 /// Returns the replacements of [`place_thing`], and of [`face_thing`] where there are `degrees`; the new text is not checked.
@@ -84,7 +93,7 @@ pub fn face_thing(
     time: StageTime,
     degrees: f64,
 ) -> Result<String, GestureRefusal> {
-    spliced_text(scene.script, face_splices(scene, thing, time, degrees)?)
+    text_of(scene, thing, face_splices(scene, thing, time, degrees)?)
 }
 
 /// Returns the replacements of [`face_thing`]; the new text is not checked.
@@ -118,7 +127,7 @@ fn written(
     name: &str,
     value: &str,
 ) -> Result<TextSplices, GestureRefusal> {
-    set_attribute(scene.script.tree(), at.element(), name, value).ok_or_else(no_place)
+    set_on_thing(scene.script, at.element(), name, Some(value)).ok_or_else(no_place)
 }
 
 fn no_place() -> GestureRefusal {
@@ -163,7 +172,7 @@ fn starting_place(
     let Some(cast) = scene.script.thing_element(thing) else {
         return refused(format!("No thing of the cast has the id \"{thing}\""));
     };
-    in_this_text(tree, cast)?;
+    in_scene_texts(tree, cast)?;
     if tree.elements()[cast].row.attribute(attribute).is_none() {
         return refused(format!("A {} has no place of its own", tree.elements()[cast].row.name));
     }

@@ -72,6 +72,18 @@ pub fn in_this_text(tree: &ScriptTree, element: usize) -> Result<(), GestureRefu
     }
 }
 
+/// Refuses an element that is in neither text of the scene, the script or its project: one of an included file.
+///
+/// # Errors
+///
+/// The reason, with the name of the file.
+pub fn in_scene_texts(tree: &ScriptTree, element: usize) -> Result<(), GestureRefusal> {
+    match tree.elements().get(element).map(|element| element.origin) {
+        Some(ElementOrigin::Included(_)) => in_this_text(tree, element),
+        Some(ElementOrigin::Text | ElementOrigin::Project) | None => Ok(()),
+    }
+}
+
 /// Returns a refusal.
 pub(super) fn refused<T>(reason: impl Into<String>) -> Result<T, GestureRefusal> {
     Err(GestureRefusal(reason.into()))

@@ -18,10 +18,12 @@ pub(in crate::stage) struct PlacedGround {
     pub(in crate::stage) scale: f64,
 }
 
-/// All ground props of a scene.
+/// All ground of a scene.
 #[derive(Clone, Debug, Default)]
 pub(in crate::stage) struct SceneGround {
     pub(in crate::stage) props: Vec<PlacedGround>,
+    /// The height of the plane, which is ground where there are no props, meters.
+    pub(in crate::stage) plane: f64,
 }
 
 impl SceneGround {

@@ -257,7 +257,7 @@ impl StandingFeet<'_> {
     fn mesh(&self) -> Option<&SceneGround> {
         match &self.follower.ground {
             WayGround::Mesh(ground) => Some(ground),
-            WayGround::Off | WayGround::Plane => None,
+            WayGround::Off | WayGround::Plane(_) => None,
         }
     }
 

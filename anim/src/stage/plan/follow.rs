@@ -30,9 +30,9 @@ pub(super) enum PathHeading {
 pub(super) enum WayGround {
     /// Its own.
     Off,
-    /// 0.
-    Plane,
-    /// That of the ground props; 0 where there are none.
+    /// That of the plane, meters.
+    Plane(f64),
+    /// That of the ground props; that of the plane where there are none.
     Mesh(Arc<SceneGround>),
 }
 
@@ -177,9 +177,9 @@ impl PathFollower {
         placement.position += placement.rotation() * aside;
         placement.position.y = match &self.ground {
             WayGround::Off => placement.position.y,
-            WayGround::Plane => 0.0,
+            WayGround::Plane(height) => *height,
             WayGround::Mesh(ground) => {
-                ground.nearest(placement.position).map_or(0.0, |surface| surface.height)
+                ground.nearest(placement.position).map_or(ground.plane, |surface| surface.height)
             }
         };
         placement

@@ -13,7 +13,7 @@ const LISTED: usize = 8;
 
 /// Prepares the props that are ground. A model is prepared once, and not again if one of the things `before`, of an older plan, has it.
 pub(super) fn find_ground(binder: &mut StageBinder<'_>, before: &[PlannedThing], errors: &mut ErrorList) {
-    let mut ground = SceneGround::default();
+    let mut ground = SceneGround { plane: binder.script.ground(), ..SceneGround::default() };
     for (thing, element) in binder.script.things().enumerate() {
         if element.value("ground") != Some("yes") {
             continue;

@@ -58,7 +58,7 @@ pub(super) enum HoldKind {
     Detach {
         /// The place where it was detached; `None` until that is computed.
         from: Option<RigidPlace>,
-        /// The height of the ground to which it falls; `None`: it stays there.
+        /// The height of the ground to which it falls, meters; `None` where it stays in the air.
         floor: Option<f64>,
     },
 }

@@ -195,7 +195,8 @@ impl StagePlan {
             if let HoldKind::Detach { from, floor } = &mut self.things[thing].holds[at].kind {
                 *from = Some(place);
                 if let Some(floor) = floor {
-                    *floor = self.ground.below(place.position).map_or(0.0, |surface| surface.height);
+                    *floor =
+                        self.ground.below(place.position).map_or(self.ground.plane, |surface| surface.height);
                 }
             }
         }
@@ -244,6 +245,11 @@ impl StagePlan {
             let seconds = cue.time(time)?.seconds();
             Some(PlayingSound { sound, seconds, gain: (cue.gain * cue.span.weight(time)) as f32 })
         }));
+    }
+
+    /// Returns the height of the plane that is ground where there are no ground props, meters.
+    pub fn ground_plane(&self) -> f64 {
+        self.ground.plane
     }
 
     /// Returns the height of the ground props of the cast under or over a point, nearest to its height; `None` where there is none.

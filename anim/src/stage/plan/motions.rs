@@ -300,7 +300,7 @@ impl MotionPlanner<'_, '_> {
         let stride = self.stride(action);
         PathFollower {
             ground: match element.value("ground") {
-                Some("plane") => WayGround::Plane,
+                Some("plane") => WayGround::Plane(self.binder.ground.plane),
                 Some("mesh") => WayGround::Mesh(Arc::clone(&self.binder.ground)),
                 Some(_) | None => WayGround::Off,
             },

@@ -199,6 +199,16 @@ impl StageScript {
         }
     }
 
+    /// Returns the project with which it was read; `None` for a script alone.
+    pub fn project(&self) -> Option<&StageProject> {
+        self.context.project.as_ref()
+    }
+
+    /// Returns the height of the ground in meters: that of the project, else 0.
+    pub fn ground(&self) -> f64 {
+        self.project().map_or(0.0, StageProject::ground)
+    }
+
     /// Returns the text and its elements.
     pub fn tree(&self) -> &ScriptTree {
         &self.tree

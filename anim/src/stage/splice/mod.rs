@@ -26,8 +26,9 @@ pub use attribute::{remove_attribute, set_attribute};
 pub use element::{AttachedComments, delete, duplicate, move_to};
 pub use insert::{ElementPlace, NewElement, insert, insert_text, written_element};
 pub(in crate::stage) use names::named;
-pub use names::{RenameRefusal, is_used, rename, unique_id};
+pub use names::{RenameRefusal, is_used, rename, rename_references, unique_id};
 
+use super::script::SHARED;
 use std::ops::Range;
 
 /// A replacement of some bytes of a text.
@@ -89,6 +90,30 @@ impl TextSplices {
         splices.sort_by_key(|splice| (splice.range.start, splice.range.end));
         debug_assert!(splices.is_sorted_by(|one, next| one.range.end <= next.range.start));
         Self(splices)
+    }
+
+    /// Returns the replacements before a byte, and those from it on, as those of a text that begins there.
+    pub(in crate::stage) fn split(&self, at: usize) -> (Self, Self) {
+        let first = self.0.partition_point(|splice| splice.range.start < at);
+        let moved = |splice: &TextSplice| TextSplice {
+            range: splice.range.start - at..splice.range.end.max(splice.range.start) - at,
+            text: splice.text.clone(),
+        };
+        (Self(self.0[..first].to_vec()), Self(self.0[first..].iter().map(moved).collect()))
+    }
+
+    /// Returns the replacements with `by` added to their places.
+    pub(in crate::stage) fn shifted(self, by: usize) -> Self {
+        let moved = |splice: TextSplice| TextSplice {
+            range: splice.range.start + by..splice.range.end + by,
+            ..splice
+        };
+        Self(self.0.into_iter().map(moved).collect())
+    }
+
+    /// Returns whether one of them is in the text of the project that a script belongs to.
+    pub fn has_shared(&self) -> bool {
+        self.0.last().is_some_and(|splice| splice.range.start >= SHARED)
     }
 
     /// Returns the replacements, in the order of the text.

@@ -90,10 +90,7 @@ pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Result<TextSplices
         let file = tree.file_of(other).map(str::to_owned);
         return Err(RenameRefusal::Shared(own.value.to_string(), file));
     }
-    // The actions of included files have names of their own.
-    let counts = |element: &&ScriptElement| !element.is_included() || is_thing(element);
-    let is_taken = tree.elements().iter().filter(counts).any(|element| element.value("id") == Some(id));
-    if is_taken || id == "prev" || !is_name(id) {
+    if is_taken(tree, id) || id == "prev" || !is_name(id) {
         return Err(RenameRefusal::NoName(id.to_owned()));
     }
     let names = HashMap::from([(&*own.value, id.to_owned())]);
@@ -101,6 +98,28 @@ pub fn rename(tree: &ScriptTree, element: usize, id: &str) -> Result<TextSplices
     let attributes = written.flat_map(|element| &element.attributes);
     let text = tree.text();
     Ok(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
+}
+
+/// Returns whether another element of a script cannot have the id any more.
+fn is_taken(tree: &ScriptTree, id: &str) -> bool {
+    // The actions of included files have names of their own.
+    let counts =
+        |element: &&ScriptElement| !element.is_included() || element.row.group == ElementGroup::Thing;
+    tree.elements().iter().filter(counts).any(|element| element.value("id") == Some(id))
+}
+
+/// Changes all references of a text to something that another text calls `id` now, and `old` before. The same text where there are none.
+///
+/// `None` for an id that is no name or that an element has.
+pub fn rename_references(tree: &ScriptTree, old: &str, id: &str) -> Option<TextSplices> {
+    if is_taken(tree, id) || id == "prev" || !is_name(id) {
+        return None;
+    }
+    let names = HashMap::from([(old, id.to_owned())]);
+    let written = tree.elements().iter().filter(|element| element.is_own());
+    let attributes = written.flat_map(|element| &element.attributes).filter(|own| own.row.name != "id");
+    let text = tree.text();
+    Some(TextSplices::of(attributes.filter_map(|attribute| renamed(text, attribute, &names)).collect()))
 }
 
 /// Returns the text of an element in which every id is a new one.

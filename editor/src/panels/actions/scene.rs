@@ -1,6 +1,6 @@
 //! Scenes: selection, the newest text, things of the cast.
 
-use super::scene_text::{add, change_text};
+use super::scene_text::{add, change_project, change_text};
 use super::{playback, scene_camera, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
@@ -28,6 +28,14 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
             let effect = change_text(workspace, &change);
             workspace.scene.set_typing(change.gesture);
             return effect;
+        }
+        SceneRequest::TypedProject(change) => {
+            let effect = change_project(workspace, &change);
+            workspace.scene.set_typing(change.gesture);
+            return effect;
+        }
+        SceneRequest::ShowScript(name) => {
+            return Some(Effect::File(FileAction::Send(DocumentMessage::ShowScript(name.into()))));
         }
         SceneRequest::SelectThings(things, choice) => {
             workspace.stage.forget_click();

@@ -1,24 +1,22 @@
 //! Commands on the selected action of a scene.
 
 use super::playback;
-use super::scene_text::gesture;
+use super::scene_text::{gesture, step as step_of_texts};
 use crate::panels::request::Effect;
 use crate::panels::scene::shots::shots_of;
-use crate::panels::scene::{SceneBase, move_label};
+use crate::panels::scene::{SceneBase, ScriptChange, move_label};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clips, duplicate_clips, in_this_text,
-    move_clips, trim_end, trim_start,
+    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clips, delete_thing, duplicate_clips,
+    duplicate_thing, in_scene_texts, move_clips, spliced_script, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
-use dragonfly_anim::stage::script::ScriptTree;
-use dragonfly_anim::stage::splice::{
-    AttachedComments, TextSplices, delete as delete_element, duplicate as duplicate_element, is_used,
-};
-use dragonfly_anim::stage::table::ElementGroup;
+use dragonfly_anim::stage::script::{ElementOrigin, StageScript};
+use dragonfly_anim::stage::splice::{TextSplices, is_used};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::edit::ScriptLabel;
+use dragonfly_document::script_that_names;
 
 fn followers(workspace: &Workspace) -> Followers {
     if workspace.scene.ripple() { Followers::Follow } else { Followers::Stay }
@@ -93,8 +91,10 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
         return gesture(workspace, ScriptLabel::Duplicate, |base| duplicate_clips(&base.scene(), &actions));
     }
     let things = workspace.scene.things().to_vec();
-    gesture(workspace, ScriptLabel::Duplicate, |base| {
-        each_thing(base, &things, |tree, element| Ok(duplicate_element(tree, element)))
+    step_of_texts(workspace, |base| {
+        each_thing(base, ScriptLabel::Duplicate, &things, |script, element| {
+            Ok(duplicate_thing(script, element))
+        })
     })
 }
 
@@ -113,39 +113,44 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         workspace.say(MessageSeverity::Info, "What is selected is locked");
         return None;
     }
-    gesture(workspace, ScriptLabel::Delete, |base| {
-        each_thing(base, &things, |tree, element| {
-            let id = tree.elements()[element].value("id").unwrap_or_default();
-            if is_used(tree, id) {
+    let scene = workspace.model.view()?.scene.clone()?;
+    step_of_texts(workspace, |base| {
+        each_thing(base, ScriptLabel::Delete, &things, |script, element| {
+            let own = &script.tree().elements()[element];
+            let id = own.value("id").unwrap_or_default();
+            if is_used(script.tree(), id) {
                 return Err(GestureRefusal(format!("Actions of the script name {id}: delete those first")));
             }
-            Ok(delete_element(tree, element, AttachedComments::Stay))
+            let other = match own.origin {
+                ElementOrigin::Project => script_that_names(&scene, id).map_err(GestureRefusal)?,
+                ElementOrigin::Text | ElementOrigin::Included(_) => None,
+            };
+            if let Some(other) = other {
+                return Err(GestureRefusal(format!("{other} names {id}: change that first")));
+            }
+            Ok(delete_thing(script, element))
         })
     })
 }
 
-/// Changes the text for each thing in turn.
+/// Changes the texts for each thing in turn.
 fn each_thing(
     base: &SceneBase,
+    label: ScriptLabel,
     things: &[Box<str>],
-    change: impl Fn(&ScriptTree, usize) -> Result<Option<TextSplices>, GestureRefusal>,
-) -> Result<String, GestureRefusal> {
-    let mut tree = base.script.tree().clone();
+    change: impl Fn(&StageScript, usize) -> Result<Option<TextSplices>, GestureRefusal>,
+) -> Result<ScriptChange, GestureRefusal> {
     for element in things.iter().filter_map(|thing| base.script.thing_element(thing)) {
-        in_this_text(&tree, element)?;
+        in_scene_texts(base.script.tree(), element)?;
     }
+    let mut script = StageScript::clone(&base.script);
     for thing in things {
-        let found = tree.elements().iter().position(|element| {
-            element.row.group == ElementGroup::Thing && element.value("id") == Some(thing)
-        });
-        let Some(element) = found else { continue };
-        if let Some(splices) = change(&tree, element)? {
-            let text = splices.apply(tree.text());
-            tree = ScriptTree::read(text)?;
+        let Some(element) = script.thing_element(thing) else { continue };
+        if let Some(splices) = change(&script, element)? {
+            script = spliced_script(&script, &splices)?;
         }
     }
-    let script = base.script.with_tree(tree)?;
-    Ok(script.tree().text().to_string())
+    Ok(base.change(&script, label, None))
 }
 
 /// Inserts a shot of the camera after the one that is seen at the playhead.

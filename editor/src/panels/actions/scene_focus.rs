@@ -1,14 +1,12 @@
 //! The focus of a camera, picked in the viewport.
 
-use super::scene_gizmo::joined;
 use super::scene_ground;
 use super::scene_probe::surface_at;
-use super::scene_text::gesture;
+use super::scene_text::step;
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text};
-use dragonfly_anim::stage::splice::set_attribute;
+use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_picture::ThroughCamera;
@@ -65,7 +63,7 @@ pub(super) fn pick(workspace: &mut Workspace, at: Pos2, choice: Choice) -> Optio
     let bone =
         surface.filter(|surface| surface.is_role && surface.bone.is_some() && choice == Choice::Replace);
     let time = workspace.read().scene_time();
-    gesture(workspace, ScriptLabel::Focus, |base| {
+    step(workspace, |base| {
         let refused = || GestureRefusal(format!("The focus of {camera} cannot be written here"));
         let mut state = base.plan.new_scene();
         base.plan.scene_at(time, &mut state);
@@ -76,12 +74,10 @@ pub(super) fn pick(workspace: &mut Workspace, at: Pos2, choice: Choice) -> Optio
             Some(surface) => surface.name(),
             None => distance_text(place, seen.position.as_dvec3(), ahead),
         };
-        let tree = base.script.tree();
-        let element = base.script.thing_element(&camera).filter(|own| tree.elements()[*own].is_own());
-        let element = element
-            .ok_or_else(|| GestureRefusal(format!("\"{camera}\" belongs to the project: change it there")))?;
-        let splices = set_attribute(tree, element, "focus", &focus).ok_or_else(refused)?;
-        spliced_text(&base.script, joined(vec![splices])?)
+        let element = base.script.thing_element(&camera).ok_or_else(refused)?;
+        in_scene_texts(base.script.tree(), element)?;
+        let splices = set_on_thing(&base.script, element, "focus", Some(&focus)).ok_or_else(refused)?;
+        base.spliced(&splices, ScriptLabel::Focus, None)
     })
 }
 

@@ -8,7 +8,7 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
-use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text, written_points};
+use dragonfly_anim::stage::gesture::{GestureRefusal, written_points};
 use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneView;
@@ -196,6 +196,5 @@ pub(super) fn spliced(
     if !workspace.stage.is_new(&splices) {
         return Ok(None);
     }
-    let text = spliced_text(&base.script, splices)?;
-    Ok(Some(ScriptChange { from: Arc::clone(base.text()), text, label, gesture: Some(gesture) }))
+    base.spliced(&splices, label, Some(gesture)).map(Some)
 }

@@ -3,10 +3,10 @@
 use super::scene_gizmo::joined;
 use super::scene_moves::BaseMoment;
 use super::scene_probe::{pointer, ray_at};
-use super::scene_text::gesture;
+use super::scene_text::step;
 use crate::panels::request::Effect;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_text};
+use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_anim::stage::{PlannedThing, StagePlan};
 use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
@@ -35,7 +35,7 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
     let selected: Vec<Box<str>> = selected.collect();
     let things = selected.iter().filter_map(|id| scene.plan.as_ref()?.thing_called(id));
     let heights = heights_on_ground(&scene, things, time.seconds());
-    gesture(workspace, ScriptLabel::DropToGround, |base| {
+    step(workspace, |base| {
         let mut state = base.plan.new_scene();
         base.plan.scene_at(time, &mut state);
         let things = selected.iter().filter_map(|id| base.plan.thing_called(id));
@@ -52,16 +52,16 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
             moment.placed(thing, on_ground(&base.plan, thing, place, height), None)
         };
         let parts: Result<Vec<_>, GestureRefusal> = standing.into_iter().map(placed).collect();
-        spliced_text(&base.script, joined(parts?)?)
+        base.spliced(&joined(parts?)?, ScriptLabel::DropToGround, None)
     })
 }
 
-/// Returns the place of a thing of a plan on the ground under or over `place`, nearest to its height: that of the ground props of the cast, else of the plane at 0.
+/// Returns the place of a thing of a plan on the ground under or over `place`, nearest to its height: that of the ground props of the cast, else of the plane.
 /// `height` is how much higher than the ground its place is. For ground props it is always the plane.
 pub(super) fn on_ground(plan: &StagePlan, thing: usize, place: Vec3, height: f32) -> Vec3 {
     let is_ground = plan.things().get(thing).is_some_and(PlannedThing::is_ground);
     let ground = if is_ground { None } else { plan.ground_at(place.as_dvec3()) };
-    place.with_y(ground.unwrap_or(0.0) as f32 + height)
+    place.with_y(ground.unwrap_or(plan.ground_plane()) as f32 + height)
 }
 
 /// Returns how much higher than the ground the places of these things of a plan are while they are on it, meters, by their positions in it: a prop with its lowest point at this time, a role
@@ -116,8 +116,9 @@ pub(super) fn pointed(workspace: &Workspace) -> Option<DVec3> {
 /// Returns the place on the ground at a position of the window, points; `None` outside of the viewport and where there is no ground near.
 pub(super) fn ground_at(workspace: &Workspace, at: Pos2) -> Option<DVec3> {
     let (origin, direction) = ray_at(workspace, at)?;
-    let along = -origin.y / direction.y;
+    let ground = workspace.read().scene().map_or(0.0, SceneView::ground);
+    let along = (ground - origin.y) / direction.y;
     let is_near = along > 0.0 && along < FARTHEST * f64::from(workspace.camera.camera().distance);
-    let place = (origin + direction * along).with_y(0.0);
+    let place = (origin + direction * along).with_y(ground);
     (direction.y.abs() > LEAST_SLOPE && is_near && place.is_finite()).then_some(place)
 }

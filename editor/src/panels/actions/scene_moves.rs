@@ -3,11 +3,11 @@
 use crate::panels::scene::SceneBase;
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::stage::gesture::{
-    GestureRefusal, HeldGrip, face_splices, facing_and_tilt, grip_splices, in_this_text, key_place_splices,
-    path_points_splices, place_splices, written_points,
+    GestureRefusal, HeldGrip, face_splices, facing_and_tilt, grip_splices, in_scene_texts, key_place_splices,
+    path_points_splices, place_splices, set_on_thing, written_points,
 };
 use dragonfly_anim::stage::script::ScriptElement;
-use dragonfly_anim::stage::splice::{TextSplices, set_attribute};
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::table::{element, vector};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{RigidPlace, StageScene, ThingHold};
@@ -243,10 +243,10 @@ impl BaseMoment<'_> {
     fn set(&self, id: &str, attribute: &str, value: &str) -> Result<TextSplices, GestureRefusal> {
         let script = &self.base.script;
         if let Some(element) = script.thing_element(id) {
-            in_this_text(script.tree(), element)?;
+            in_scene_texts(script.tree(), element)?;
         }
         let splices =
-            script.thing_element(id).and_then(|own| set_attribute(script.tree(), own, attribute, value));
+            script.thing_element(id).and_then(|own| set_on_thing(script, own, attribute, Some(value)));
         splices.ok_or_else(|| GestureRefusal(format!("{attribute} of {id} cannot be written here")))
     }
 

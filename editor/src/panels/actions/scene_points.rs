@@ -9,7 +9,7 @@ use crate::panels::request::Effect;
 use crate::panels::scene::{ScriptChange, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::stage::gesture::{GestureRefusal, move_path_point};
+use dragonfly_anim::stage::gesture::{GestureRefusal, path_point_splices};
 use dragonfly_anim::stage::line::DrawnLine;
 use dragonfly_document::Change;
 use dragonfly_document::SceneView;
@@ -51,13 +51,8 @@ fn path_change(
 ) -> Result<ScriptChange, GestureRefusal> {
     let scene = open_scene(workspace)?;
     let base = gesture_base(workspace, &scene)?;
-    let text = move_path_point(&base.script, path, point.index, point.place)?;
-    Ok(ScriptChange {
-        from: Arc::clone(base.text()),
-        text,
-        label: ScriptLabel::MovePoint,
-        gesture: Some(gesture),
-    })
+    let splices = path_point_splices(&base.script, path, point.index, point.place)?;
+    base.spliced(&splices, ScriptLabel::MovePoint, Some(gesture))
 }
 
 /// Returns the edit of the file of lines as it was when the drag began.

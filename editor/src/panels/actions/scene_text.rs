@@ -26,6 +26,18 @@ pub(super) fn text_change(workspace: &mut Workspace, change: &ScriptChange) -> O
     }
 }
 
+/// Sends a new text of the project.
+pub(super) fn change_project(workspace: &mut Workspace, change: &ScriptChange) -> Option<Effect> {
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    match workspace.scene.change_project(&scene, change) {
+        Ok(change) => change.map(Effect::Change),
+        Err(reason) => {
+            workspace.say(MessageSeverity::Info, reason);
+            None
+        }
+    }
+}
+
 /// Makes a gesture on the scene as it is now a step of the history.
 pub(super) fn gesture(
     workspace: &mut Workspace,
@@ -35,7 +47,25 @@ pub(super) fn gesture(
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
     let base = SceneBase::of(&scene, workspace.scene.text(&scene));
     match base.and_then(|base| Ok((act(&base)?, Arc::clone(base.text())))) {
-        Ok((text, from)) => change_text(workspace, &ScriptChange { from, text, label, gesture: None }),
+        Ok((text, from)) => {
+            change_text(workspace, &ScriptChange { from, text, also: Vec::new(), label, gesture: None })
+        }
+        Err(refusal) => {
+            workspace.say(MessageSeverity::Info, refusal.to_string());
+            None
+        }
+    }
+}
+
+/// Makes a change of the scene as it is now a step of the history: of its script, and of the project.
+pub(super) fn step(
+    workspace: &mut Workspace,
+    act: impl FnOnce(&SceneBase) -> Result<ScriptChange, GestureRefusal>,
+) -> Option<Effect> {
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let base = SceneBase::of(&scene, workspace.scene.text(&scene));
+    match base.and_then(|base| act(&base)) {
+        Ok(change) => change_text(workspace, &change),
         Err(refusal) => {
             workspace.say(MessageSeverity::Info, refusal.to_string());
             None

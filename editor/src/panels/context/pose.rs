@@ -71,7 +71,11 @@ impl<'a> PanelContext<'a> {
     /// Returns the title of the window: the name of the document, with a dot before it while something is not in its file.
     pub fn window_title(&self) -> String {
         let Some(view) = self.view else { return "Dragonfly".to_owned() };
-        let name = if view.file.path.is_some() { &view.file.title } else { "Untitled" };
+        let project = view.scene.as_ref().and_then(|scene| scene.project.as_ref()?.name());
+        let name = match view.file.path {
+            Some(_) => project.unwrap_or(&view.file.title),
+            None => "Untitled",
+        };
         let dot = if view.history.saved && self.pending_poses().1 == 0 { "" } else { "• " };
         format!("{dot}{name} – Dragonfly")
     }

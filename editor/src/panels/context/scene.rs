@@ -68,9 +68,14 @@ impl<'a> PanelContext<'a> {
         plan.things().get(camera).map(|thing| &*thing.id)
     }
 
-    /// Returns start and length of the scene, seconds; `None` while a model is open, and before a script works.
+    /// Returns start and length of the scene, or of the part of it that its project shows, seconds; `None` while a model is open, and before a script works.
     pub fn scene_bounds(&self) -> Option<(f32, f32)> {
         let plan = self.scene()?.plan.as_ref()?;
-        Some((0.0, plan.length().seconds() as f32))
+        let length = plan.length();
+        let [start, end] = self.scene()?.project.as_ref().map_or([None, None], |project| project.range());
+        let [start, end] = [start.unwrap_or_default(), end.unwrap_or(length)];
+        // A part that ends before it begins is none.
+        let [start, end] = if start < end { [start, end] } else { [StageTime::ZERO, length] };
+        Some((start.seconds() as f32, (end - start).seconds() as f32))
     }
 }

@@ -6,12 +6,12 @@ use super::super::request::Request;
 use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
+use super::renaming::renamed;
 use super::thing_icon::icon;
 use super::{LineRequest, SceneBase, SceneRequest, ScriptChange, line_named};
 use crate::panels::icons::Icon;
-use dragonfly_anim::stage::gesture::{GestureRefusal, in_this_text};
-use dragonfly_anim::stage::script::{ElementOrigin, ScriptElement, StageScript};
-use dragonfly_anim::stage::splice::{remove_attribute, rename, set_attribute};
+use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
+use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 use dragonfly_anim::stage::table::AttributeRow;
 use dragonfly_document::edit::ScriptLabel;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
@@ -62,7 +62,7 @@ impl Panel for SceneAttributes {
                     .into_iter()
                     .flatten()
                     .any(|id| context.scene_editing.is_locked(id))
-                    || !own.is_own();
+                    || own.is_included();
                 ui.add_enabled_ui(!is_locked, |ui| {
                     for row in own.row.rows() {
                         let field = AttributeField { owner: FieldOwner::Element(element), row, element: own };
@@ -136,13 +136,7 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
         icon(element.row.name).paint(ui.painter(), mark, theme.accent);
         let name = element.value("id").or_else(|| element.value("who")).unwrap_or_default();
         ui.label(RichText::new(format!("{} {name}", element.row.name)).color(theme.text));
-        let line = script.tree().place(element.range.start).line;
-        let place = match (element.origin, script.tree().file_of(element)) {
-            (ElementOrigin::Project, _) => "of the project".to_owned(),
-            (ElementOrigin::Included(_), Some(file)) => format!("line {line} of {file}"),
-            (ElementOrigin::Text | ElementOrigin::Included(_), _) => format!("line {line}"),
-        };
-        ui.label(RichText::new(place).small().color(theme.faint));
+        ui.label(RichText::new(line_of(script, element)).small().color(theme.faint));
     });
     ui.horizontal(|ui| {
         ui.add_space(2.0 * GRID);
@@ -150,6 +144,20 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
         ui.add(egui::Label::new(help).wrap());
     });
     ui.add_space(GRID);
+}
+
+/// Returns the line of an element, which may be in the project or in an included file.
+fn line_of(script: &StageScript, element: &ScriptElement) -> String {
+    let shared = script.project().and_then(|project| {
+        let own = &project.tree().elements()[project.element_of(element)?];
+        Some(project.tree().place(own.range.start).line)
+    });
+    let line = shared.unwrap_or_else(|| script.tree().place(element.range.start).line);
+    match (shared, script.tree().file_of(element)) {
+        (Some(_), _) => format!("line {line} of the project"),
+        (None, Some(file)) => format!("line {line} of {file}"),
+        (None, None) => format!("line {line}"),
+    }
 }
 
 impl SceneAttributes {
@@ -255,31 +263,28 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         let scene = context.scene().ok_or_else(|| refused("No scene is open".to_owned()))?;
         let base = SceneBase::of(scene, context.scene_editing.text(scene))?;
         let tree = base.script.tree();
-        in_this_text(tree, element)?;
+        in_scene_texts(tree, element)?;
         let is_name =
             row.name == "id" && tree.elements().get(element).is_some_and(|own| own.attribute("id").is_some());
         if !value.is_empty() && !row.value.accepts(value, base.script.rate()) {
             return Err(refused(format!("{}=\"{value}\" is not {}", row.name, row.value.expected)));
         }
-        let splices = match value {
-            "" => remove_attribute(tree, element, row.name),
-            name if is_name => {
-                Some(rename(tree, element, name).map_err(|refusal| refused(refusal.to_string()))?)
-            }
-            value => set_attribute(tree, element, row.name, value),
-        };
-        let text = splices.map(|splices| splices.apply(tree.text()));
-        let text = text.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
-        // A reference to something that does not exist is refused with its reason; an included file is not read yet.
-        if !tree.elements().get(element).is_some_and(|own| own.row.name == "include" && row.name == "src") {
-            base.script.reread(text.as_str())?;
+        if is_name && !value.is_empty() {
+            return Ok(SceneRequest::Text(renamed(scene, &base, element, value)?));
         }
-        Ok(SceneRequest::Text(ScriptChange {
-            from: Arc::clone(tree.text()),
-            text,
-            label: ScriptLabel::ChangeValue,
-            gesture: None,
-        }))
+        let written = Some(value).filter(|value| !value.is_empty());
+        let splices = set_on_thing(&base.script, element, row.name, written);
+        let splices =
+            splices.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
+        let label = ScriptLabel::ChangeValue;
+        // An included file is not read yet.
+        if tree.elements().get(element).is_some_and(|own| own.row.name == "include" && row.name == "src") {
+            let (from, text) = (Arc::clone(tree.text()), splices.apply(tree.text()));
+            let change = ScriptChange { from, text, also: Vec::new(), label, gesture: None };
+            return Ok(SceneRequest::Text(change));
+        }
+        // A reference to something that does not exist is refused with its reason.
+        Ok(SceneRequest::Text(base.spliced(&splices, label, None)?))
     };
     done().unwrap_or_else(|refusal| SceneRequest::Refused(refusal.to_string()))
 }

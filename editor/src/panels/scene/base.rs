@@ -1,9 +1,13 @@
 //! The script and plan with which gestures in a scene begin.
 
+use super::ScriptChange;
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene};
+use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene, spliced_script};
 use dragonfly_anim::stage::script::StageScript;
+use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_document::SceneView;
+use dragonfly_document::edit::{EditScript, ScriptLabel};
+use dragonfly_document::history::Gesture;
 use std::sync::Arc;
 
 /// The script and the plan of a scene whose text has no errors.
@@ -44,6 +48,29 @@ impl SceneBase {
     /// Returns the scene as gestures take it.
     pub fn scene(&self) -> GestureScene<'_> {
         GestureScene { script: &self.script, plan: &self.plan }
+    }
+
+    /// Returns the change by replacements: of the script, and of the cast of its project.
+    ///
+    /// # Errors
+    ///
+    /// The result would be no script or no project.
+    pub fn spliced(
+        &self,
+        splices: &TextSplices,
+        label: ScriptLabel,
+        gesture: Option<Gesture>,
+    ) -> Result<ScriptChange, GestureRefusal> {
+        Ok(self.change(&spliced_script(&self.script, splices)?, label, gesture))
+    }
+
+    /// Returns the change that makes `script` the script, and its project the project.
+    pub fn change(&self, script: &StageScript, label: ScriptLabel, gesture: Option<Gesture>) -> ScriptChange {
+        let projects = self.script.project().zip(script.project());
+        let also = projects
+            .and_then(|(old, new)| EditScript::between(old.tree().text(), new.tree().text(), Some(label)));
+        let (from, text) = (Arc::clone(self.text()), script.tree().text().to_string());
+        ScriptChange { from, text, also: also.into_iter().collect(), label, gesture }
     }
 
     /// Returns the text.

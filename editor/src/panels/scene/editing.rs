@@ -2,16 +2,18 @@
 
 use super::action_selection::ActionSelection;
 use super::line_editing::{LineEditing, MarkedThings};
+use super::newest_text::NewestText;
 use super::request::ScriptChange;
 use super::sounds::SceneSounds;
 use super::thing_selection::ThingSelection;
 use super::thumbnails::SceneThumbnails;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::lanes::SceneLanes;
+use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::{RigidPlace, StagePlan};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{Edit, EditScript, TextRef};
+use dragonfly_document::edit::{Edit, TextRef};
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{Change, SceneView};
 use std::collections::BTreeSet;
@@ -36,22 +38,11 @@ pub struct SceneEditing {
     lines: LineEditing,
     sounds: SceneSounds,
     thumbnails: SceneThumbnails,
-    /// The newest text that was asked for and not passed on yet.
-    proposed: Option<Arc<str>>,
-    /// The newest text that was sent and not answered yet.
-    sent: Option<SentText>,
-    /// The gesture in progress, with the text at its start.
-    gesture: Option<(Gesture, Arc<str>)>,
+    script: NewestText,
+    /// The text of the project that the script belongs to.
+    project: NewestText,
     /// The gesture that is a word that someone types.
     typing: Option<Gesture>,
-}
-
-/// A text that was sent.
-#[derive(Clone, Debug)]
-struct SentText {
-    text: Arc<str>,
-    /// Number of the change.
-    number: u64,
 }
 
 impl Default for SceneEditing {
@@ -70,9 +61,8 @@ impl Default for SceneEditing {
             lines: LineEditing::default(),
             sounds: SceneSounds::default(),
             thumbnails: SceneThumbnails::default(),
-            proposed: None,
-            sent: None,
-            gesture: None,
+            script: NewestText::default(),
+            project: NewestText::default(),
             typing: None,
         }
     }
@@ -81,8 +71,12 @@ impl Default for SceneEditing {
 impl SceneEditing {
     /// Returns the newest text: the one that was asked for or sent last, or that of the view.
     pub fn text<'a>(&'a self, scene: &'a SceneView) -> &'a Arc<str> {
-        let sent = self.sent.as_ref().map(|sent| &sent.text);
-        self.proposed.as_ref().or(sent).unwrap_or(&scene.text)
+        self.script.text(&scene.text)
+    }
+
+    /// Returns the newest text of the project; `None` for a script that is open alone.
+    pub fn project_text<'a>(&'a self, scene: &'a SceneView) -> Option<&'a Arc<str>> {
+        scene.texts.main().filter(|_| scene.is_of_project()).map(|text| self.project.text(text))
     }
 
     /// Returns the ids of the selected things, the active one last.
@@ -256,9 +250,8 @@ impl SceneEditing {
         Self {
             renaming: None,
             awaited: Vec::new(),
-            proposed: None,
-            sent: None,
-            gesture: None,
+            script: NewestText::default(),
+            project: NewestText::default(),
             typing: None,
             ..self.clone()
         }
@@ -276,7 +269,8 @@ impl SceneEditing {
 
     /// Adapts to a newer view.
     pub(in crate::panels) fn update(&mut self, scene: Option<&SceneView>, answered: u64) {
-        self.sent.take_if(|sent| sent.number <= answered);
+        self.script.update(answered);
+        self.project.update(answered);
         let shown = scene
             .and_then(|scene| Some((Arc::clone(scene.script.as_ref()?), Arc::clone(scene.plan.as_ref()?))));
         let Some((script, plan)) = shown else { return };
@@ -308,30 +302,29 @@ impl SceneEditing {
         scene: &SceneView,
         change: &ScriptChange,
     ) -> Result<Option<Change>, &'static str> {
-        let known = self.gesture.as_ref().filter(|(gesture, _)| Some(*gesture) == change.gesture);
-        let base = known.map_or(self.text(scene), |(_, base)| base);
-        // A word is typed letter by letter; a drag always begins with the text at its start.
-        let is_known = |text: &Arc<str>| Arc::ptr_eq(text, &change.from) || **text == *change.from;
-        if !is_known(base) && !is_known(self.text(scene)) {
-            return Err("The script has changed meanwhile: try again");
+        if !change.also.is_empty() && !self.script.has_gesture(change.gesture) {
+            let text = |project: &Arc<StageProject>| Some(project.tree().text()) == scene.texts.main();
+            let is_new = scene.project.as_ref().is_some_and(text);
+            if !is_new || self.project.is_awaited() || self.script.is_awaited() {
+                return Err("The project has just changed: try again");
+            }
         }
-        let base = Arc::clone(base);
-        if **self.text(scene) == *change.text {
-            return Ok(None);
-        }
-        let text: Arc<str> = change.text.as_str().into();
         let file = (scene.texts.list().len() > 1).then(|| TextRef::Name(scene.name.to_string()));
-        let edit = EditScript::between(&base, &text, Some(change.label));
-        let edit = edit.map(|edit| EditScript { text: file, ..edit });
-        self.gesture = change.gesture.map(|gesture| (gesture, base));
-        let change = match (edit, change.gesture) {
-            (Some(edit), gesture) => Some(Change::Edit(Edit::EditScript(edit), gesture)),
-            // A drag is back where it began.
-            (None, Some(gesture)) => Some(Change::Cancel(gesture)),
-            (None, None) => None,
-        };
-        self.proposed = change.is_some().then_some(text);
-        Ok(change)
+        self.script.change(&scene.text, file, change)
+    }
+
+    /// Returns the change of the document that makes a text the newest one of the project; `None` where it is that already.
+    ///
+    /// # Errors
+    ///
+    /// The text was made from another one than the newest, or there is no project.
+    pub(in crate::panels) fn change_project(
+        &mut self,
+        scene: &SceneView,
+        change: &ScriptChange,
+    ) -> Result<Option<Change>, &'static str> {
+        let text = scene.texts.main().filter(|_| scene.is_of_project()).ok_or("The scene has no project")?;
+        self.project.change(text, Some(TextRef::Index(0)), change)
     }
 
     /// Notes the gesture of a word that someone types.
@@ -341,39 +334,22 @@ impl SceneEditing {
 
     /// Notes the number of a change that was passed on.
     pub(in crate::panels) fn passed_on(&mut self, number: u64, change: &Change) {
-        match change {
-            Change::Edit(Edit::EditScript(_), gesture) => match (self.proposed.take(), &mut self.sent) {
-                (Some(text), sent) => *sent = Some(SentText { text, number }),
-                // Another movement of the same gesture, whose text was noted with the one before.
-                (None, Some(sent))
-                    if gesture.is_some() && *gesture == self.gesture.as_ref().map(|own| own.0) =>
-                {
-                    sent.number = number;
-                }
-                (None, sent) => *sent = None,
-            },
-            // A gesture that something else cancelled has no text: the next view has it.
-            Change::Cancel(_) => self.sent = self.proposed.take().map(|text| SentText { text, number }),
-            Change::Undo | Change::Redo | Change::GoTo(_) => self.forget_texts(),
-            Change::Edit(..) | Change::Release(_) => {}
-        }
+        self.script.passed_on(number, change);
+        self.project.passed_on(number, change);
     }
 
     /// Forgets a text whose change was dropped: its gesture is over.
     pub(in crate::panels) fn dropped(&mut self, change: &Change) {
         if matches!(change, Change::Edit(Edit::EditScript(_), _)) {
-            self.proposed = None;
+            self.script.dropped();
+            self.project.dropped();
         }
     }
 
     /// Forgets a text that the document refused.
     pub(in crate::panels) fn refused(&mut self) {
-        self.gesture = None;
-        self.forget_texts();
-    }
-
-    fn forget_texts(&mut self) {
-        (self.proposed, self.sent) = (None, None);
+        self.script.refused();
+        self.project.refused();
     }
 }
 

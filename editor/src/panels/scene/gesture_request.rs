@@ -18,7 +18,7 @@ pub(in crate::panels) fn gesture_request(
     let base = SceneBase::of(scene, context.scene_editing.text(scene));
     let done = base.and_then(|base| {
         let text = act(&base.scene())?;
-        Ok(ScriptChange { from: Arc::clone(base.text()), text, label, gesture: None })
+        Ok(ScriptChange { from: Arc::clone(base.text()), text, also: Vec::new(), label, gesture: None })
     });
     Request::Scene(match done {
         Ok(change) => SceneRequest::Text(change),

@@ -2,7 +2,7 @@
 
 use crate::panels::keys::TimeWindow;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::ScriptLabel;
+use dragonfly_document::edit::{EditScript, ScriptLabel};
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::ThroughCamera;
 use std::sync::Arc;
@@ -14,6 +14,9 @@ pub struct ScriptChange {
     pub from: Arc<str>,
     /// The new text.
     pub text: String,
+    /// Changes of other texts in the same step: of the project, where things of its cast change, and of other scripts that name them. Their places are
+    /// those of the texts at the start of a gesture, too.
+    pub also: Vec<EditScript>,
     /// Label of the step in the history.
     pub label: ScriptLabel,
     /// The gesture that it belongs to.
@@ -49,6 +52,10 @@ pub enum SceneRequest {
     Text(ScriptChange),
     /// Replaces the text by what someone types; the gesture is a word.
     Typed(ScriptChange),
+    /// Replaces the text of the project by what someone types; the gesture is a word.
+    TypedProject(ScriptChange),
+    /// Shows another script of the project, by the name of its file.
+    ShowScript(Box<str>),
     /// Selects things of the cast by their ids: replaces, adds or toggles them.
     SelectThings(Vec<Box<str>>, Choice),
     /// Selects an action, or none.

@@ -8,7 +8,7 @@ use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
 
 commands! {
-    NewScene => When::Always, "New scene of two roles…", [], "Chooses a model, writes a scene with two roles of it next to its file, and opens it (project, script, movie)", |w| Some(Effect::Choose(FileChoice::NewScene, w.read().model_folder()));
+    NewScene => When::Always, "New scene of two roles…", [], "Chooses a model, writes a project with a scene of two roles of it next to its file, and opens it (script, movie)", |w| Some(Effect::Choose(FileChoice::NewScene, w.read().model_folder()));
     DemoScene => When::Always, "New scene with the built-in model…", [], "Chooses a folder, writes the built-in model and a scene with two roles of it there, and opens the scene", |w| Some(Effect::Choose(FileChoice::DemoScene, w.read().model_folder()));
     ProjectFromScene => When::Scene, "New project from this scene", [], "Writes a project (.meproj) and a file for drawn lines next to the script, and opens the project", scene_lines::project_from_scene;
     AddRole => When::Scene, "Add role…", [], "Adds a figure to the scene: a model whose takes it can play", |w| Some(Effect::Choose(FileChoice::Role, w.read().model_folder()));

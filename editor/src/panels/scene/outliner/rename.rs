@@ -3,11 +3,9 @@
 use crate::panels::context::PanelContext;
 use crate::panels::name_field::{INDENT, NameField, NameFieldEnd};
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange};
+use crate::panels::scene::{SceneBase, SceneRequest};
 use crate::panels::style::ROW;
-use dragonfly_anim::stage::gesture::in_this_text;
-use dragonfly_anim::stage::splice::{RenameRefusal, rename};
-use dragonfly_document::edit::ScriptLabel;
+use dragonfly_anim::stage::gesture::in_scene_texts;
 use egui::{Rect, Sense, TextStyle, Ui, pos2, vec2};
 
 /// The thing whose name is typed, by its id.
@@ -53,18 +51,11 @@ fn renamed(context: &PanelContext<'_>, thing: &str, name: &str) -> SceneRequest 
         Ok(base) => base,
         Err(refusal) => return SceneRequest::Refused(refusal.to_string()),
     };
-    let tree = base.script.tree();
-    let element = base.script.thing_element(thing);
-    if let Some(Err(refusal)) = element.map(|element| in_this_text(tree, element)) {
-        return SceneRequest::Refused(refusal.to_string());
-    }
-    match element.map_or(Err(RenameRefusal::Nothing), |element| rename(tree, element, name)) {
-        Ok(splices) => SceneRequest::Text(ScriptChange {
-            from: std::sync::Arc::clone(tree.text()),
-            text: splices.apply(tree.text()),
-            label: ScriptLabel::Rename,
-            gesture: None,
-        }),
+    let Some(element) = base.script.thing_element(thing) else { return SceneRequest::Rename(None) };
+    let changed = in_scene_texts(base.script.tree(), element)
+        .and_then(|()| super::super::renaming::renamed(scene, &base, element, name));
+    match changed {
+        Ok(change) => SceneRequest::Text(change),
         Err(refusal) => SceneRequest::Refused(refusal.to_string()),
     }
 }

@@ -3,7 +3,6 @@
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::stage::script::ScriptError;
-use dragonfly_document::SceneView;
 use egui::accesskit::Role;
 use egui::text::CCursor;
 use egui::text_edit::TextEditOutput;
@@ -16,7 +15,8 @@ use super::lines::{characters_before, line_of};
 /// The editor in one frame, as the margin reads it.
 pub(super) struct MarginSheet<'a> {
     pub(super) text: &'a str,
-    pub(super) scene: &'a SceneView,
+    /// The errors of this text.
+    pub(super) errors: &'a [&'a ScriptError],
     pub(super) output: &'a TextEditOutput,
     /// Width of the margin.
     pub(super) width: f32,
@@ -78,7 +78,7 @@ pub(super) fn show(ui: &Ui, sheet: &MarginSheet<'_>) {
         let at = pos2(area.right() - 6.0, (from + to) / 2.0);
         painter.text(at, Align2::RIGHT_CENTER, (index + 1).to_string(), font.clone(), color);
     }
-    for error in sheet.scene.errors.iter().take(50) {
+    for error in sheet.errors.iter().take(50) {
         mark(ui, sheet, error, area);
     }
 }

@@ -5,6 +5,7 @@ mod error_list;
 mod lines;
 mod margin;
 mod popup;
+mod text_choice;
 mod typed_text;
 mod typing;
 
@@ -16,8 +17,11 @@ use super::super::{Panel, PanelPlace, widgets};
 use super::{SceneRequest, ScriptChange};
 use crate::panels::commands::Id as CommandId;
 use coloring::ScriptLayout;
+use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::TextSplice;
+use dragonfly_anim::stage::table::ElementGroup;
 use dragonfly_anim::stage::writing::{CompletionNames, completions};
+use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::{Change, SceneView};
 use egui::text::{CCursor, CCursorRange};
@@ -31,6 +35,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
+use text_choice::ShownText;
 use typed_text::TypedText;
 use typing::TypedWord;
 
@@ -49,6 +54,8 @@ pub struct ScriptPanel {
     followed: Option<Range<usize>>,
     /// Byte to which the cursor moves in the next frame.
     jump: Option<usize>,
+    /// The text that is shown.
+    shown: ShownText,
 }
 
 impl Panel for ScriptPanel {
@@ -77,16 +84,29 @@ impl Panel for ScriptPanel {
                 "Choose \"New scene of two roles\" in the menu File > New, or open a scene.xml",
             );
         };
-        let id = Id::unique("script of the scene");
-        self.follow_document(ui, id, context.scene_editing.text(scene));
+        if scene.is_of_project() {
+            let chosen = text_choice::show(ui, scene, self.shown, requests);
+            self.choose(chosen, requests);
+        } else {
+            self.choose(Some(ShownText::Script), requests);
+        }
         let rect = ui.available_rect_before_wrap();
         ui.painter().rect_filled(rect, CornerRadius::ZERO, Theme::of(ui).sunken);
         let errors = error_list::height(scene, rect.height());
         let edit = Rect::from_min_max(rect.min, pos2(rect.right(), rect.bottom() - errors));
         let list = Rect::from_min_max(pos2(rect.left(), edit.bottom()), rect.max);
-        if let Some(at) = error_list::show(ui, list, scene) {
+        if let Some((text, at)) = error_list::show(ui, list, scene) {
+            self.choose(Some(text), requests);
             self.jump = Some(at);
         }
+        let (id, text) = match self.shown {
+            ShownText::Script => (Id::unique("script of the scene"), context.scene_editing.text(scene)),
+            ShownText::Project => match context.scene_editing.project_text(scene) {
+                Some(text) => (Id::unique("text of the project"), text),
+                None => return,
+            },
+        };
+        self.follow_document(ui, id, text);
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(edit));
         child.set_clip_rect(edit.intersect(ui.clip_rect()));
         self.edit(&mut child, id, scene, context, requests);
@@ -94,6 +114,16 @@ impl Panel for ScriptPanel {
 }
 
 impl ScriptPanel {
+    /// Shows another text from now on; a word that is being typed is over then.
+    fn choose(&mut self, text: Option<ShownText>, requests: &mut Vec<Request>) {
+        let Some(text) = text.filter(|text| *text != self.shown) else { return };
+        requests.extend(self.word.end().map(|gesture| Request::Change(Change::Release(gesture))));
+        self.shown = text;
+        (self.of, self.told, self.followed) = (None, None, None);
+        self.buffer.set("");
+        self.suggestions.set(None);
+    }
+
     /// Shows a newer text of the document; the cursor stays at what it was at.
     fn follow_document(&mut self, ui: &Ui, id: Id, text: &Arc<str>) {
         if self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, text)) {
@@ -103,7 +133,9 @@ impl ScriptPanel {
         if **text == *self.buffer.as_str() {
             return;
         }
-        if let Some(mut state) = TextEditState::load(ui.ctx(), id) {
+        // Another text was shown before: the cursor is where it was in this one.
+        let is_other = self.buffer.as_str().is_empty();
+        if let Some(mut state) = TextEditState::load(ui.ctx(), id).filter(|_| !is_other) {
             let moved = |cursor: CCursor| {
                 let at = byte_of(self.buffer.as_str(), cursor.index.0);
                 CCursor::new(characters_before(text, moved_position(at, self.buffer.as_str(), text)))
@@ -150,7 +182,11 @@ impl ScriptPanel {
         let room = text_width.max(ui.available_width() - width - 20.0);
         let layout = &mut self.layout;
         let mut layouter = |ui: &Ui, text: &dyn TextBuffer, _: f32| layout.galley(ui, text.as_str());
-        let selected = selected_range(scene, context);
+        let selected = selected_range(scene, context, self.shown);
+        let errors: Vec<&ScriptError> = match self.shown {
+            ShownText::Script => scene.errors.iter().collect(),
+            ShownText::Project => scene.project_errors.iter().chain(&*scene.shared_errors).collect(),
+        };
         let follows = selected.clone().filter(|range| self.followed.as_ref() != Some(range) && !has_focus);
         let area = ScrollArea::both().auto_shrink(false).id_salt("script");
         let output = area.show(ui, |ui| {
@@ -168,7 +204,8 @@ impl ScriptPanel {
                 let output = field.show(ui);
                 let text = self.buffer.as_str();
                 let lines = selected.as_ref().map(|range| lines_of(text, range));
-                let sheet = margin::MarginSheet { text, scene, output: &output, width, lines };
+                let errors = &errors;
+                let sheet = margin::MarginSheet { text, errors, output: &output, width, lines };
                 margin::background(ui, background, &sheet);
                 margin::show(ui, &sheet);
                 if let Some(range) = &follows {
@@ -179,7 +216,11 @@ impl ScriptPanel {
             .inner
         });
         let output = output.inner;
-        let _named = output.response.response.clone().accessible_name("Script of the scene");
+        let name = match self.shown {
+            ShownText::Script => "Script of the scene",
+            ShownText::Project => "Text of the project",
+        };
+        let _named = output.response.response.clone().accessible_name(name);
         self.followed = selected.or(self.followed.take());
         let cursor = output.cursor_range.map(|range| byte_of(self.buffer.as_str(), range.primary.index.0));
         let before = self.buffer.take_before();
@@ -197,7 +238,7 @@ impl ScriptPanel {
             }
             self.told = Some(at);
             self.followed = None;
-            requests.push(Request::Scene(SceneRequest::Cursor(at)));
+            requests.extend(cursor_request(scene, self.shown, at).map(Request::Scene));
         }
         self.finish_word(ui, has_focus, time, requests);
         if let (true, Some(range)) = (has_focus, output.cursor_range) {
@@ -237,9 +278,12 @@ impl ScriptPanel {
             (true, false) => ScriptLabel::Type,
         };
         let from: Arc<str> = before.into();
-        let change =
-            ScriptChange { from, text: self.buffer.as_str().to_owned(), label, gesture: Some(gesture) };
-        requests.push(Request::Scene(SceneRequest::Typed(change)));
+        let text = self.buffer.as_str().to_owned();
+        let change = ScriptChange { from, text, also: Vec::new(), label, gesture: Some(gesture) };
+        requests.push(Request::Scene(match self.shown {
+            ShownText::Script => SceneRequest::Typed(change),
+            ShownText::Project => SceneRequest::TypedProject(change),
+        }));
     }
 
     /// Ends the word after a pause, or when the field has lost the focus.
@@ -252,6 +296,10 @@ impl ScriptPanel {
     }
 
     fn suggest(&mut self, scene: &SceneView, at: usize, asked: bool) {
+        // Only words of scripts can be completed.
+        if self.shown == ShownText::Project {
+            return self.suggestions.set(None);
+        }
         let models: Vec<&str> = scene.models.keys().map(String::as_str).collect();
         let lines = scene.lines.as_ref().map_or(&[][..], |lines| lines.list());
         let lines: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
@@ -308,19 +356,40 @@ impl ScriptPanel {
     }
 }
 
-/// Returns the bytes of what is selected elsewhere: the action, or the active thing; `None` while the text is another one than the script.
-fn selected_range(scene: &SceneView, context: &PanelContext<'_>) -> Option<Range<usize>> {
+/// Returns the request that follows the cursor of a text: what is there is selected.
+fn cursor_request(scene: &SceneView, shown: ShownText, at: usize) -> Option<SceneRequest> {
+    match shown {
+        ShownText::Script => Some(SceneRequest::Cursor(at)),
+        ShownText::Project => {
+            let tree = scene.project.as_ref()?.tree();
+            let element = &tree.elements()[tree.element_at(at)?];
+            let id = element.value("id").filter(|_| element.row.group == ElementGroup::Thing)?;
+            Some(SceneRequest::SelectThings(vec![id.into()], Choice::Replace))
+        }
+    }
+}
+
+/// Returns the bytes of what is selected elsewhere: the action, or the active thing; `None` while the text is another one than the scene has, and
+/// where it is in another text.
+fn selected_range(scene: &SceneView, context: &PanelContext<'_>, shown: ShownText) -> Option<Range<usize>> {
     let (script, editing) = (scene.script.as_ref()?, context.scene_editing);
-    let (own, newest) = (script.tree().text(), editing.text(scene));
+    let project = script.project().filter(|_| shown == ShownText::Project);
+    let (own, newest) = match project {
+        Some(project) => (project.tree().text(), editing.project_text(scene)?),
+        None => (script.tree().text(), editing.text(scene)),
+    };
     if !Arc::ptr_eq(own, newest) && **own != **newest {
         return None;
     }
     if let Some(action) = editing.action() {
         script.actions().get(action)?;
-        return script.tree().range_in_text(script.element(action));
+        return script.tree().range_in_text(script.element(action)).filter(|_| project.is_none());
     }
-    let element = script.thing_element(editing.things().last()?)?;
-    script.tree().range_in_text(&script.tree().elements()[element])
+    let element = &script.tree().elements()[script.thing_element(editing.things().last()?)?];
+    match project {
+        Some(project) => Some(project.tree().elements()[project.element_of(element)?].range.clone()),
+        None => script.tree().range_in_text(element),
+    }
 }
 
 /// Returns the files that the script may include, as it would write them: the other scripts of its project, those that it includes, and

@@ -154,7 +154,7 @@ impl HeldBar {
         let (text, refused) = result.map_or_else(|refusal| (None, Some(refusal)), |text| (Some(text), None));
         self.refused = refused;
         let from = std::sync::Arc::clone(self.base.text());
-        let change = ScriptChange { from, text: text?, label, gesture: Some(self.gesture) };
+        let change = ScriptChange { from, text: text?, also: Vec::new(), label, gesture: Some(self.gesture) };
         self.is_sent = true;
         Some(Request::Scene(SceneRequest::Text(change)))
     }
