@@ -184,7 +184,7 @@ fn wrong_arguments_exit_with_2_and_are_named() {
     for (arguments, word) in [
         (vec!["pose", "demo:"], "--time"),
         (vec!["pose", "demo:", "--time", "nan"], "finite"),
-        (vec!["pose", "demo:", "--time", "soon"], "not a number"),
+        (vec!["pose", "demo:", "--time", "soon"], "is no time"),
         (vec!["render", "demo:"], "--output"),
         (vec!["render", "demo:", "--size", "0x5", "-o", "x.png"], "1 to"),
         (vec!["render", "demo:", "--size", "large", "-o", "x.png"], "1280x720"),

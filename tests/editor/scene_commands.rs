@@ -215,7 +215,7 @@ fn errors_of_an_included_script_are_found_with_its_name_line_and_column() {
     let row = &found[0]["findings"][0];
     assert_eq!(
         (&found[0]["file"], &row["file"], &row["place"]),
-        (&"scene.xml".into(), &"intro.xml".into(), &"10:40".into()),
+        (&"scene.xml".into(), &"intro.xml".into(), &"10:38".into()),
         "{found}"
     );
     assert!(
@@ -223,10 +223,10 @@ fn errors_of_an_included_script_are_found_with_its_name_line_and_column() {
         "{found}"
     );
     let printed = run(["check", text(&path)]).expect(1).text().to_owned();
-    assert!(printed.contains("error: intro.xml:10:40: \"fox\" has no take \"Fly\""), "{printed}");
+    assert!(printed.contains("error: intro.xml:10:38: \"fox\" has no take \"Fly\""), "{printed}");
     // The included script alone has the same error.
     assert!(
-        run(["check", text(&intro)]).expect(1).text().contains("error: 10:40: \"fox\" has no take \"Fly\"")
+        run(["check", text(&intro)]).expect(1).text().contains("error: 10:38: \"fox\" has no take \"Fly\"")
     );
     fs::remove_file(&intro).expect("a file");
     let printed = run(["check", text(&path)]).expect(1).text().to_owned();

@@ -188,12 +188,12 @@ fn a_kill_while_a_project_keeps_edits_of_three_models_and_its_script_is_edited_l
     let mut kept = vec![String::new(); 3];
     let mut steps = 0;
     for round in 0..4 {
-        for number in 0..3 {
+        for (number, kept) in kept.iter_mut().enumerate() {
             let (name, id) = (format!("foxes.edits/m{number}.jsonl"), format!("m{number}"));
             let edit =
                 json!({"edit": "rename_take", "take": round % 3, "name": format!("take {number} {round}")});
             let new = format!("{edit}\n");
-            let splice = json!([{"at": kept[number].len(), "new": new}]);
+            let splice = json!([{"at": kept.len(), "new": new}]);
             let mut step = json!({"edit": "script", "text": name, "splices": splice, "label": "Edit model"});
             if round == 0 {
                 let model = format!("<model id=\"{id}\" src=\"Fox{number}.glb\"/>");
@@ -204,7 +204,7 @@ fn a_kill_while_a_project_keeps_edits_of_three_models_and_its_script_is_edited_l
                 project = project.replace(&model, &edits);
             }
             session.ask(&step);
-            kept[number] += &new;
+            *kept += &new;
             let (old, now) = (format!("<role id=\"r{number}\""), format!("<role  id=\"r{number}\""));
             let (old, now) = if round % 2 == 0 { (old, now) } else { (now, old) };
             let at = main.find(&old).expect("a role");

@@ -34,7 +34,7 @@ const SCRIPT: &str = r#"<script version="1">
     <role id="anna" model="Fox.glb" at="-1 0 0" facing="90" scale="0.01"/>
   </cast>
   <shot who="wide"/>
-  <look who="anna" at="door" begin="1"/>
+  <look who="anna" at="door" bones="b_Head_05" begin="1"/>
 </script>
 "#;
 
@@ -138,6 +138,8 @@ fn a_shared_thing_gets_its_new_name_in_all_scripts_in_one_step() {
     assert_eq!(text(&window), SCRIPT.replace("\"door\"", "\"exit\""));
     undo(&mut window);
     // Another script has that name.
+    window.get_by_label("door, mark").click();
+    window.run_steps(2);
     window.key_press(Key::F2);
     window.run_steps(2);
     type_into(&mut window, "Name of the thing", "gate", Key::Enter);

@@ -68,7 +68,10 @@ fn a_take_dropped_onto_a_lane_plays_from_the_snapped_time() {
     assert_eq!(text(&window), FOXES, "nothing before it is dropped");
     release(&mut window, to);
     window.run_steps(3);
-    assert_eq!(new_lines(FOXES, &text(&window)), [r#"<play who="ben" take="Walk" begin="3.5"/>"#]);
+    assert_eq!(
+        new_lines(FOXES, &text(&window)),
+        [r#"<play who="ben" take="Walk" begin="3.5" fade-in="0.158"/>"#]
+    );
     assert_eq!(window.state().steps(), (1, 1));
 }
 

@@ -1,8 +1,8 @@
-//! The timeline of a scene: menus, Alt, snapping, ripple, zoom, and what is selected elsewhere.
+//! The timeline of a scene: menus, ripple, and what is selected elsewhere.
 
 use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::scene_timeline::{Lanes, drag};
-use crate::workbench::{Window, move_to};
+use crate::workbench::Window;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
@@ -15,7 +15,6 @@ const LOOKS: usize = 5;
 const RUN: usize = 6;
 const MOVE: usize = 7;
 const CHANGE: usize = 9;
-const TITLE: usize = 10;
 
 fn window() -> Window {
     scene(FOXES).window()
@@ -53,47 +52,6 @@ fn beside(window: &Window, action: usize) -> Pos2 {
 }
 
 #[test]
-fn the_speed_is_changed_by_alt_and_the_end_of_a_bar_and_in_the_menu() {
-    let mut window = window();
-    let bar = Lanes::of(&window).bar(&window, LOOKS);
-    // Two seconds become two and a half.
-    drag(&mut window, pos2(bar.right() - 2.0, bar.bottom() - 4.0), 0.5, Modifiers::ALT);
-    let line = new_lines(FOXES, &text(&window)).concat();
-    assert!(line.contains(r#"take="Survey" to="2" speed="0.8""#), "{line}");
-    undo(&mut window);
-    let bar = Lanes::of(&window).bar(&window, LOOKS);
-    right_click(&mut window, pos2(bar.center().x, bar.bottom() - 4.0));
-    choose(&mut window, &["Speed", "2×"]);
-    let line = new_lines(FOXES, &text(&window)).concat();
-    assert!(line.contains(r#"take="Survey" to="2" speed="2""#), "{line}");
-    assert_eq!(window.state().steps(), (1, 1));
-}
-
-#[test]
-fn drags_snap_to_ends_moments_and_the_playhead_and_ctrl_leaves_them_free() {
-    let mut window = window();
-    window.state_mut().state.execute(Request::Seek(3.3));
-    window.run_steps(2);
-    // The title begins at 4: to the playhead, which is on no frame.
-    let to = |window: &mut Window, time: f64, modifiers: Modifiers| {
-        let bar = Lanes::of(window).bar(window, TITLE);
-        drag(window, pos2(bar.center().x, bar.bottom() - 4.0), time - 4.0, modifiers);
-        let line = new_lines(FOXES, &text(window)).concat();
-        undo(window);
-        line
-    };
-    let pixel = 1.0 / Lanes::of(&window).scale.per_second();
-    let line = to(&mut window, 3.3 + 2.0 * pixel, Modifiers::NONE);
-    assert!(line.contains("begin=\"3.3\""), "the playhead: {line}");
-    let line = to(&mut window, 2.0 + 2.0 * pixel, Modifiers::NONE);
-    assert!(line.contains("begin=\"2\""), "the end of another bar: {line}");
-    let line = to(&mut window, 1.25 + 2.0 * pixel, Modifiers::NONE);
-    assert!(line.contains("begin=\"1.25\""), "a moment of a take: {line}");
-    let line = to(&mut window, 3.3 + 2.0 * pixel, Modifiers::COMMAND);
-    assert!(!line.contains("begin=\"3.3\""), "free: {line}");
-}
-
-#[test]
 fn the_ripple_switch_and_the_held_key_decide_whether_what_follows_moves() {
     let mut window = window();
     let begin_of_run = |window: &Window| {
@@ -122,41 +80,6 @@ fn the_ripple_switch_and_the_held_key_decide_whether_what_follows_moves() {
     window.run_steps(1);
     assert_eq!(trim(&mut window, false), 1.5);
     assert_eq!(trim(&mut window, true), 2.0);
-}
-
-#[test]
-fn the_wheel_zooms_the_middle_button_pans_and_fit_shows_all() {
-    let mut window = window();
-    let shown = |window: &Window| window.state().state.read().scene_editing.window();
-    let whole = shown(&window);
-    let canvas = Lanes::of(&window).canvas;
-    let at = canvas.center();
-    move_to(&mut window, at, Modifiers::NONE);
-    let under = Lanes::of(&window).scale.time_at(at.x);
-    window.event(egui::Event::MouseWheel {
-        unit: egui::MouseWheelUnit::Point,
-        delta: egui::vec2(0.0, 120.0),
-        phase: egui::TouchPhase::Move,
-        source: egui::MouseWheelSource::Wheel,
-        modifiers: Modifiers::NONE,
-    });
-    window.run_steps(10);
-    let zoomed = shown(&window);
-    assert!(zoomed.length < whole.length * 0.95, "{zoomed:?} of {whole:?}");
-    assert!((Lanes::of(&window).scale.time_at(at.x) - under).abs() < 0.02, "the time at the pointer stays");
-    let button = |window: &mut Window, pos: Pos2, pressed: bool| {
-        let (button, modifiers) = (PointerButton::Middle, Modifiers::NONE);
-        window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
-        window.run_steps(2);
-    };
-    button(&mut window, at, true);
-    move_to(&mut window, pos2(at.x - 60.0, at.y), Modifiers::NONE);
-    button(&mut window, pos2(at.x - 60.0, at.y), false);
-    let panned = shown(&window);
-    assert!(panned.start > zoomed.start && (panned.length - zoomed.length).abs() < 1e-9, "{panned:?}");
-    window.state_mut().state.execute(Request::Command(Id::FitScene));
-    window.run_steps(2);
-    assert_eq!(shown(&window), whole);
 }
 
 #[test]
@@ -278,29 +201,4 @@ fn the_timeline_shows_the_action_that_the_cursor_of_the_script_is_in() {
     let shown = window.state().state.read().scene_editing.window();
     assert!((shown.start..shown.start + shown.length).contains(&30.0), "{shown:?}");
     assert_eq!(shown.length, 5.0);
-}
-
-#[test]
-fn an_error_is_marked_in_the_margin_of_its_line() {
-    let mut window = window();
-    let wrong = FOXES.replace("take=\"Walk\"", "take=\"Wolk\"");
-    let change = dragonfly::panels::scene::ScriptChange {
-        from: FOXES.into(),
-        text: wrong.clone(),
-        also: Vec::new(),
-        label: dragonfly_document::edit::ScriptLabel::Type,
-        gesture: None,
-    };
-    if let Some(Effect::Change(change)) =
-        window.state_mut().state.execute(Request::Scene(SceneRequest::Typed(change)))
-    {
-        window.state_mut().change(change);
-    }
-    window.run_steps(3);
-    let line = wrong.lines().position(|line| line.contains("Wolk")).unwrap() + 1;
-    let mark = window.get_by_label(&format!("Error in line {line}")).rect();
-    // A row is as high as the letters of the text: the mark is at the height of its own line.
-    let script = window.get_by_label("Script of the scene").rect();
-    let row = (mark.center().y - script.top()) / mark.height();
-    assert!((row - (line as f32 - 0.5)).abs() < 1.0, "{row} for line {line}");
 }

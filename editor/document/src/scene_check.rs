@@ -35,12 +35,15 @@ pub struct CheckedText {
     pub notes: Vec<ScriptError>,
 }
 
+/// A project, or what is wrong with its text.
+type ReadProject = Result<StageProject, Vec<ScriptError>>;
+
 /// A scene that is checked: a script, or a project with its scripts. Models are read once and kept; what cannot be read is tried once for each
 /// question.
 pub(super) struct SceneCheck {
     is_project: bool,
     /// The text of the project that was read last, and what it has.
-    project: Option<(Arc<str>, Result<StageProject, Vec<ScriptError>>)>,
+    project: Option<(Arc<str>, ReadProject)>,
     /// The folder of the document; the reason why its files cannot be read where it fails.
     folder: Result<Folder, String>,
     assets: StageAssets,

@@ -70,5 +70,5 @@ fn other_scripts(scene: &SceneView) -> Result<Vec<(usize, Arc<str>, ScriptTree)>
 fn edit_of(index: usize, tree: &ScriptTree, splices: &TextSplices, label: ScriptLabel) -> Option<EditScript> {
     let edit = EditScript::of(tree.text(), splices, label);
     let text = Some(TextRef::Index(index));
-    (!splices.list().is_empty()).then(|| EditScript { text, ..edit })
+    (!splices.list().is_empty()).then_some(EditScript { text, ..edit })
 }

@@ -377,7 +377,7 @@ fn random_gestures_leave_valid_scripts_and_their_inverses_lead_back_to_the_first
         let mut random = Random::new(at);
         // Half of them include a part of themselves.
         let script = random_scripts::script(at);
-        let cut = (at % 2 == 0).then(|| cut_out(&script, &mut random)).flatten();
+        let cut = at.is_multiple_of(2).then(|| cut_out(&script, &mut random)).flatten();
         let (text, part) = cut.map_or((script, None), |(_, include, part)| (include, Some(part)));
         let with_survey = |text: String| {
             let takes = ["PickUp", "Slash", "Idle", "Fall"];

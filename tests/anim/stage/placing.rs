@@ -10,6 +10,7 @@ use dragonfly_anim::stage::gesture::{
 use dragonfly_anim::stage::{RigidPlace, ThingHold};
 use dragonfly_kit::random::{Random, seed};
 use glam::{DQuat, DVec3, EulerRot, Vec3};
+use std::f64::consts::FRAC_PI_2;
 
 const HELD: &str = "<play id=\"a\" who=\"anna\" take=\"Survey\"/>\n<attach id=\"held\" who=\"sword\" to=\"anna.b_Head_05\" begin=\"1\" turn=\"10 20 30\"/>";
 
@@ -144,7 +145,7 @@ fn a_prop_is_pitched_and_rolled_in_its_own_space_and_turned_after_that() {
         let again = DQuat::from_rotation_z(z) * DQuat::from_rotation_y(y) * DQuat::from_rotation_x(x);
         assert!(between(again, rotation) < 1e-3, "{rotation}");
     }
-    for rotation in [DQuat::from_rotation_y(1.5707963), DQuat::from_rotation_x(-1.5707963)] {
+    for rotation in [DQuat::from_rotation_y(FRAC_PI_2), DQuat::from_rotation_x(-FRAC_PI_2)] {
         let (facing, [pitch, roll]) = facing_and_tilt(rotation);
         let angles = [facing, pitch, roll].map(f64::to_radians);
         assert!(between(DQuat::from_euler(EulerRot::YXZ, angles[0], angles[1], angles[2]), rotation) < 1e-3);

@@ -212,7 +212,7 @@ fn random_gestures_change_only_what_they_name_and_their_inverses_lead_back_to_th
             text = text.replace(&format!("\"{take}\""), "\"Survey\"");
         }
         let mut context = ScriptContext::default();
-        if at % 2 == 0
+        if at.is_multiple_of(2)
             && let Some((_, include, file)) = cut_out(&text, &mut random)
         {
             context = self::context("duel.xml", &include, &[("part.xml", &file)]);

@@ -86,12 +86,12 @@ pub(super) fn mixed<'a>(
     let old = mixes(scene.script, scene.schedule().times());
     let new = mixes(&script, schedule.times());
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
-    for action in 1..script.actions().len() {
+    for (action, origin) in origins.iter().enumerate().skip(1) {
         let element = script.element(action);
         if !element.is_own() || element.row.attribute("fade-in").is_none() {
             continue;
         }
-        let before = origins[action].and_then(|origin| old.get(&origin)).copied().unwrap_or_default();
+        let before = origin.and_then(|origin| old.get(&origin)).copied().unwrap_or_default();
         let after = new.get(&action).copied().unwrap_or_default();
         let fade = script.time(element, "fade-in").unwrap_or_default();
         if is_same(before, after) || !is_same(fade, before) {

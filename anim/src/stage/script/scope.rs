@@ -151,7 +151,7 @@ impl StageScript {
         let brought: HashMap<usize, &IncludedPart> = parts.iter().map(|part| (part.include, part)).collect();
         let mut action_of: HashMap<usize, usize> = HashMap::new();
         // The last entry is the next one. Its depth is that of the includes.
-        let mut open: Vec<Range<usize>> = vec![0..own];
+        let mut open: Vec<Range<usize>> = std::iter::once(0..own).collect();
         while let Some(next) = open.last_mut() {
             let Some(index) = next.next() else {
                 open.pop();

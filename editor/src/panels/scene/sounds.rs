@@ -56,10 +56,8 @@ impl SceneSounds {
     /// their files changed.
     pub fn look_again(&mut self) {
         self.sounds.retain(|_, sound| !matches!(sound, SceneSound::Problem(_)));
-        let is_read = |(source, sound): (&Box<str>, &SceneSound)| {
-            matches!(sound, SceneSound::Read(_)).then(|| source.clone())
-        };
-        self.unsure = self.sounds.iter().filter_map(is_read).collect();
+        let read = self.sounds.iter().filter(|(_, sound)| matches!(sound, SceneSound::Read(_)));
+        self.unsure = read.map(|(source, _)| source.clone()).collect();
     }
 
     /// Notes that a sound is being read. What is known of it counts until it is found to be another one; then the state of the file is returned

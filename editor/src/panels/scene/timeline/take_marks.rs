@@ -32,10 +32,13 @@ pub fn events_of(take: &Take) -> Vec<EventMark> {
     events.map(|event| EventMark { after: after(event.time), name: event.name }).collect()
 }
 
+/// A model, and the events of one of its takes.
+type KnownEvents = (Arc<LoadedModel>, Arc<[EventMark]>);
+
 /// The events of the takes that were drawn, by model and take.
 #[derive(Debug, Default)]
 pub(super) struct TakeMarks {
-    known: BTreeMap<(String, String), (Arc<LoadedModel>, Arc<[EventMark]>)>,
+    known: BTreeMap<(String, String), KnownEvents>,
 }
 
 impl TakeMarks {
