@@ -218,11 +218,16 @@ fn a_kill_while_a_project_keeps_edits_of_three_models_and_its_script_is_edited_l
     document.open(&path);
     let offer = document.wait_for_offers().remove(0);
     document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    // The models are shown as the files have them until they were read with their edits.
+    let is_edited = |model: &SceneModel| match model {
+        SceneModel::Loaded(loaded) => {
+            loaded.model.animation.takes.iter().all(|take| take.name.starts_with("take "))
+        }
+        SceneModel::Loading | SceneModel::Missing(_) => false,
+    };
     let is_read = |view: &View| {
         let models = view.scene.as_ref().map(|scene| scene.models.clone()).unwrap_or_default();
-        view.history.done == steps
-            && models.len() == 3
-            && models.values().all(|model| matches!(model, SceneModel::Loaded(_)))
+        view.history.done == steps && models.len() == 3 && models.values().all(is_edited)
     };
     let view = document.wait_for_view(is_read);
     let scene = view.scene.expect("a scene");

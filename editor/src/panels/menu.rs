@@ -10,6 +10,7 @@ use super::request::Request;
 use super::scene::{SceneRequest, add_action_menu};
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
+pub(super) use super::submenu::{GUTTER, submenu};
 use super::theme::Theme;
 use super::widgets::{disabled_hint_beside, hint_beside};
 use crate::control::line::{LineSurface, LineUse};
@@ -83,22 +84,6 @@ fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
     ui.spacing_mut().scroll.floating_allocated_width = 10.0;
     ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
     ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, entries);
-}
-
-/// Width at the left of the entries, where a check mark is, points.
-const GUTTER: f32 = 20.0;
-
-/// Draws a button that opens a menu, with its title below those of the other entries.
-pub(super) fn submenu<R>(
-    ui: &mut Ui,
-    title: impl Into<egui::WidgetText>,
-    entries: impl FnOnce(&mut Ui) -> R,
-) {
-    ui.scope(|ui| {
-        ui.spacing_mut().button_padding.x += GUTTER;
-        let title: egui::WidgetText = title.into();
-        ui.menu_button(title, entries);
-    });
 }
 
 /// Draws an entry: title and shortcut, with a check mark before the title and the title in the accent color if `on`.

@@ -98,6 +98,7 @@ pub mod status_line;
 mod step_remark;
 mod step_text;
 pub mod style;
+mod submenu;
 mod tab;
 pub mod take_findings;
 pub mod take_list;

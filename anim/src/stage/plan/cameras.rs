@@ -1,7 +1,7 @@
 //! The camera that is seen: cuts and blends, what it looks at, what is in focus.
 
 use super::StagePlan;
-use super::evaluate::{position_of, rigid};
+use super::rigid::{position_of, rigid};
 use super::thing::FocusTarget;
 use crate::stage::ease::smooth;
 use crate::stage::scene::{StageCamera, ThingState};

@@ -3,15 +3,15 @@
 use super::StagePlan;
 use super::cameras::camera;
 use super::feet::{RoleSpace, WalkState, keep_feet};
-use super::holds::{HoldCue, HoldKind, MOST_FADES, RigidPlace, fallen};
+use super::holds::{HoldKind, MOST_FADES, RigidPlace, fallen};
 use super::needed::NeededThings;
 use super::places::MotionKind;
 use super::poses::pose_role;
+use super::rigid::{deciding_hold, position_of, rigid, rigid_of};
 use super::shapes::shape_role;
-use super::spot::StageSpot;
 use super::thing::PlannedThing;
 use crate::data::Transform;
-use crate::fast::matrix::{mat4, transform_point};
+use crate::fast::matrix::mat4;
 use crate::fast::to_root;
 use crate::ik::{LookAt, look_at};
 use crate::stage::ease::smooth;
@@ -86,14 +86,6 @@ fn fits(plan: &StagePlan, scene: &StageScene) -> bool {
     plan.things.len() == scene.things.len() && plan.things.iter().zip(&scene.things).all(same)
 }
 
-/// Returns position and rotation of a transform.
-pub(super) fn rigid(transform: &Transform) -> RigidPlace {
-    RigidPlace {
-        position: transform.translation.as_dvec3(),
-        rotation: transform.rotation.as_dquat().normalize(),
-    }
-}
-
 fn transform(place: &RigidPlace, scale: f64) -> Transform {
     let made = Transform {
         translation: place.position.as_vec3(),
@@ -101,48 +93,6 @@ fn transform(place: &RigidPlace, scale: f64) -> Transform {
         scale: Vec3::splat(scale as f32),
     };
     if made.is_finite() { made } else { Transform::IDENTITY }
-}
-
-/// Returns the position of a spot in the scene.
-pub(super) fn position_of(spot: StageSpot, things: &[ThingState]) -> DVec3 {
-    match spot {
-        StageSpot::Point(point) => point,
-        StageSpot::Thing(thing) => things[thing].transform.translation.as_dvec3(),
-        StageSpot::Bone(thing, bone) => {
-            let state = &things[thing];
-            let bone = state
-                .pose
-                .as_ref()
-                .map_or(Vec3::ZERO, |pose| transform_point(pose.to_root.get(bone as usize), Vec3::ZERO));
-            let Transform { translation, rotation, scale } = state.transform;
-            (translation + rotation * (scale * bone)).as_dvec3()
-        }
-    }
-}
-
-/// Returns position and rotation of a spot, without any scale.
-pub(super) fn rigid_of(spot: StageSpot, things: &[ThingState]) -> RigidPlace {
-    let position = position_of(spot, things);
-    let rotation = match spot {
-        StageSpot::Point(_) => glam::DQuat::IDENTITY,
-        StageSpot::Thing(thing) => things[thing].transform.rotation.as_dquat(),
-        StageSpot::Bone(thing, bone) => {
-            let state = &things[thing];
-            let own = state.pose.as_ref().map_or(glam::Quat::IDENTITY, |pose| {
-                Transform::from_matrix(mat4(pose.to_root.get(bone as usize))).rotation
-            });
-            (state.transform.rotation * own).as_dquat()
-        }
-    };
-    RigidPlace { position, rotation: rotation.normalize() }
-}
-
-/// Returns the one of the first `count` attachments of a thing that decides where it is; `None` where its motions do.
-pub(super) fn deciding_hold(planned: &PlannedThing, time: StageTime, count: usize) -> Option<usize> {
-    let begun = planned.holds[..count].partition_point(|hold| hold.begin <= time);
-    let hold = planned.holds[..begun].iter().rposition(HoldCue::is_known);
-    let moved = planned.places.last_begin(time);
-    hold.filter(|&at| moved.is_none_or(|moved| (planned.holds[at].begin, planned.holds[at].action) > moved))
 }
 
 /// Returns the place of a thing by its motions and the first `count` of its attachments: what began last decides.

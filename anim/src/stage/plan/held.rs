@@ -1,9 +1,9 @@
 //! Holders of things at a time, for gestures that change how they hold.
 
-use super::StagePlan;
-use super::evaluate::{deciding_hold, rigid_of};
 use super::holds::{HoldKind, RigidPlace};
+use super::rigid::{deciding_hold, rigid_of};
 use super::spot::StageSpot;
+use super::thing::PlannedThing;
 use crate::stage::scene::StageScene;
 
 /// The reason why a thing is elsewhere than its own motions move it.
@@ -24,8 +24,8 @@ pub enum ThingHold {
     Detached(usize),
 }
 
-pub(super) fn hold_of(plan: &StagePlan, thing: usize, scene: &StageScene) -> Option<ThingHold> {
-    let planned = plan.things.get(thing)?;
+pub(super) fn hold_of(things: &[PlannedThing], thing: usize, scene: &StageScene) -> Option<ThingHold> {
+    let planned = things.get(thing)?;
     let hold = planned.holds.get(deciding_hold(planned, scene.time, planned.holds.len())?)?;
     Some(match hold.kind {
         HoldKind::Attach { to, grip, fade_in } => ThingHold::Attached {
@@ -38,12 +38,12 @@ pub(super) fn hold_of(plan: &StagePlan, thing: usize, scene: &StageScene) -> Opt
     })
 }
 
-pub(super) fn place_of_name(plan: &StagePlan, name: &str, scene: &StageScene) -> Option<RigidPlace> {
+pub(super) fn place_of_name(things: &[PlannedThing], name: &str, scene: &StageScene) -> Option<RigidPlace> {
     let (thing, bone) = name.split_once('.').map_or((name, None), |(thing, bone)| (thing, Some(bone)));
-    let thing = plan.thing_called(thing)?;
+    let thing = things.iter().position(|planned| &*planned.id == thing)?;
     let spot = match bone {
         None => StageSpot::Thing(thing),
-        Some(bone) => StageSpot::Bone(thing, plan.things[thing].model.as_ref()?.skeleton().find(bone)?),
+        Some(bone) => StageSpot::Bone(thing, things[thing].model.as_ref()?.skeleton().find(bone)?),
     };
     Some(rigid_of(spot, &scene.things))
 }

@@ -20,6 +20,7 @@ mod placement;
 mod places;
 mod poses;
 mod properties;
+mod rigid;
 mod shapes;
 mod spot;
 mod thing;
@@ -277,14 +278,14 @@ impl StagePlan {
     /// Returns what holds a thing in `scene`, which [`Self::scene_at`] wrote; `None` where its own motions decide where it is, and past the end.
     pub fn hold_of(&self, thing: usize, scene: &StageScene) -> Option<ThingHold> {
         let same_cast = scene.things.len() == self.things.len();
-        same_cast.then(|| held::hold_of(self, thing, scene)).flatten()
+        same_cast.then(|| held::hold_of(&self.things, thing, scene)).flatten()
     }
 
     /// Returns position and rotation of a thing such as `anna`, or of a bone of it such as `anna.RightHand`, in `scene`, which [`Self::scene_at`]
     /// wrote. `None` where there is no such thing or bone.
     pub fn place_of_name(&self, name: &str, scene: &StageScene) -> Option<RigidPlace> {
         let same_cast = scene.things.len() == self.things.len();
-        same_cast.then(|| held::place_of_name(self, name, scene)).flatten()
+        same_cast.then(|| held::place_of_name(&self.things, name, scene)).flatten()
     }
 
     /// Returns what a camera of the cast sees in `scene`, which [`Self::scene_at`] wrote, whatever is shot; `None` for things that are no

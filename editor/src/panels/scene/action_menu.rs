@@ -2,9 +2,9 @@
 
 use super::gesture_request::gesture_request;
 use crate::panels::context::PanelContext;
-use crate::panels::menu::submenu;
 use crate::panels::request::Request;
 use crate::panels::scene::SceneRequest;
+use crate::panels::submenu::submenu;
 use dragonfly_anim::stage::PlannedThing;
 use dragonfly_anim::stage::gesture::add_new_action;
 use dragonfly_anim::stage::table::{NEW_ACTIONS, NewActionRow, NewActionTarget, PROPERTIES, element};

@@ -27,6 +27,7 @@ mod probe;
 mod renaming;
 mod request;
 pub mod script;
+mod shot_list;
 pub mod shots;
 mod sounds;
 mod template;

@@ -1,6 +1,7 @@
 //! The list of shots: which camera is seen from when, and for how long. A click goes there.
 
 use super::SceneRequest;
+pub use super::shot_list::{shot_at, shots_of};
 use crate::panels::command_button::command_button;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
@@ -10,7 +11,7 @@ use crate::panels::request::Request;
 use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::{Panel, PanelPlace, widgets};
-use dragonfly_anim::stage::lanes::{LaneSubject, SceneBar, SceneLanes};
+use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_picture::ThroughCamera;
 use egui::{Rect, RichText, ScrollArea, TextStyle, Ui, pos2};
@@ -18,17 +19,6 @@ use egui::{Rect, RichText, ScrollArea, TextStyle, Ui, pos2};
 /// The list of shots.
 #[derive(Debug, Default)]
 pub struct ShotsPanel;
-
-/// Returns the shots in the order of their begins.
-pub fn shots_of(lanes: &SceneLanes) -> &[SceneBar] {
-    let lane = lanes.list.iter().find(|lane| lane.subject == LaneSubject::Shots);
-    lane.map_or(&[], |lane| &lane.bars)
-}
-
-/// Returns the position of the shot that is seen at a time: the last one that has begun. `None` before the first one.
-pub fn shot_at(shots: &[SceneBar], time: StageTime) -> Option<usize> {
-    shots.partition_point(|shot| shot.begin <= time).checked_sub(1)
-}
 
 impl Panel for ShotsPanel {
     fn id(&self) -> &'static str {

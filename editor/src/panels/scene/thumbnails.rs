@@ -1,6 +1,6 @@
 //! The small pictures of the shots of the scene that is open: which are wanted, and those that were drawn.
 
-use super::shots::shots_of;
+use super::shot_list::shots_of;
 use crate::panels::keys::TimeWindow;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLanes};
