@@ -1,6 +1,7 @@
 //! Asks the graphics thread for the pictures of the shots of a scene, one after the other, while nothing is dragged, typed or played.
 
 use crate::panels::State;
+use crate::panels::keys::TimeWindow;
 use crate::panels::scene::ShotKey;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::time::StageTime;
@@ -20,6 +21,8 @@ pub struct ThumbnailLoader {
     asked: Option<ShotKey>,
     /// The plan whose shots were looked at last.
     plan: Option<Arc<StagePlan>>,
+    /// The part of time all of whose shots of that plan have their pictures.
+    complete: Option<TimeWindow>,
 }
 
 impl ThumbnailLoader {
@@ -33,9 +36,15 @@ impl ThumbnailLoader {
         let window = read.scene_editing.window();
         if !self.plan.as_ref().is_some_and(|known| Arc::ptr_eq(known, &plan)) {
             state.thumbnails().keep_shots(&script, &lanes);
-            self.plan = Some(Arc::clone(&plan));
+            (self.plan, self.complete) = (Some(Arc::clone(&plan)), None);
         }
-        let shot = state.thumbnails().wanted((&script, &plan), &lanes, window)?;
+        if self.complete == Some(window) {
+            return None;
+        }
+        let Some(shot) = state.thumbnails().wanted((&script, &plan), &lanes, window) else {
+            self.complete = Some(window);
+            return None;
+        };
         let [width, height] = script.size().map(|side| side.max(1) as f32);
         let width = (HEIGHT as f32 * between(width / height, 1.0 / WIDEST, WIDEST)).round() as u32;
         let (camera, time) = (Arc::clone(&shot.camera), shot.begin.seconds());
