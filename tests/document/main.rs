@@ -31,6 +31,7 @@ mod offset_keys;
 mod old_defaults;
 mod old_journals;
 mod pose_library;
+mod project_disks;
 mod project_faults;
 mod project_saves;
 mod project_shared;

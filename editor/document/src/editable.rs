@@ -281,9 +281,24 @@ impl Editable {
         plan: &SavePlan,
         output: &Path,
     ) -> Result<Vec<PathBuf>, String> {
+        self.save_through(&RealFiles, adapter, plan, output)
+    }
+
+    /// Saves as [`Self::save`], with another file system than that of the machine.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn save_through(
+        &mut self,
+        disk: &dyn Vfs,
+        adapter: &ModelAdapter,
+        plan: &SavePlan,
+        output: &Path,
+    ) -> Result<Vec<PathBuf>, String> {
         let own = self.is_own(output);
         let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
-        let how = Writing { overwrite, replaces: &[], versions: None, becomes: own };
+        let how = Writing { disk, overwrite, replaces: &[], versions: None, becomes: own };
         let files = self.files(plan, output)?;
         let saved = self.write(adapter, files, how).map_err(|error| error.to_string())?;
         Ok(saved.files)

@@ -6,13 +6,11 @@ use super::editable::{Editable, WrittenFile, is_same_path, make_folder, opened, 
 use super::edited_content::EditedContent;
 use super::source::file_name;
 use super::unused;
-use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
+use super::writing::{FilesSaved, Overwrite, SaveFailure, UnsavedFile, Writing, save_file};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::buffer_of_save;
 use dragonfly_anim::root_bone::BoneShift;
-use dragonfly_store::{
-    ExpectedFile, FileState, RealFiles, SaveOptions, folder_of, remove_unfinished, save as save_file,
-};
+use dragonfly_store::{ExpectedFile, FileState, RealFiles, SaveOptions, folder_of, remove_unfinished};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -39,15 +37,19 @@ impl Editable {
             let versions = how.versions.filter(|_| matches!(self.content, EditedContent::Texts(_)));
             let options = SaveOptions { expected: self.expected(path, &how), versions };
             let done = make_folder(path)
-                .map_err(SaveFailure::Other)
-                .and_then(|()| save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of));
+                .map_err(UnsavedFile::from)
+                .and_then(|()| save_file(how.disk, path, bytes, &options));
             match done {
                 Ok(done) => {
                     beside.add(done.path, done.stamp);
                     saved.notices.extend(done.notices);
                     saved.files.push(path.clone());
                 }
-                Err(reason) => {
+                Err(UnsavedFile { reason, own }) => {
+                    if let Some((own, stamp)) = own {
+                        beside.add(own, stamp);
+                        saved.files.push(path.clone());
+                    }
                     self.note_written(adapter, &main, &saved.files, beside);
                     return Err(reason);
                 }
@@ -65,10 +67,13 @@ impl Editable {
             _ => ExpectedFile::Anything,
         };
         let options = SaveOptions { expected, versions: how.versions };
-        let done = match save_file(&RealFiles, &main, &bytes, &options).map_err(SaveFailure::of) {
+        let done = match save_file(how.disk, &main, &bytes, &options) {
             Ok(done) => done,
-            Err(reason) => {
+            Err(UnsavedFile { reason, own }) => {
                 self.note_written(adapter, &main, &saved.files, beside);
+                if let Some((_, stamp)) = own.filter(|_| self.is_own(&main)) {
+                    self.stamp = Some(stamp);
+                }
                 return Err(reason);
             }
         };

@@ -12,7 +12,9 @@ use super::recorded::{EditsOrigin, Snapshot};
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use dragonfly_anim::data::Take;
 use dragonfly_anim::format::ChangeReport;
-use dragonfly_store::{Autosave, FileContents, Journal, JournalError, Successor, SuccessorJournal};
+use dragonfly_store::{
+    Autosave, FileContents, Journal, JournalError, RealFiles, Successor, SuccessorJournal,
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -162,7 +164,13 @@ impl PreparedSave {
         let target = input.target;
         let versions = input.autosave.as_ref().map(Autosave::versions);
         let becomes = target != SaveTarget::Copy;
-        let how = Writing { overwrite: input.overwrite, replaces: &input.replaces, versions, becomes };
+        let how = Writing {
+            disk: &RealFiles,
+            overwrite: input.overwrite,
+            replaces: &input.replaces,
+            versions,
+            becomes,
+        };
         let saved = match input.editable.write(input.edited.adapter(), files, how) {
             Ok(saved) => saved,
             Err(reason) => {

@@ -1,7 +1,9 @@
 //! Options and results of writing a saved file.
 
-use dragonfly_store::{FileSaveError as DiskError, Versions};
-use std::path::PathBuf;
+use dragonfly_store::{
+    FileSaveError as DiskError, FileStamp, RealFiles, SaveOptions, SaveOutcome, Versions, Vfs,
+};
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// The files that a save may overwrite.
@@ -17,6 +19,8 @@ pub(super) enum Overwrite {
 
 /// Options of a save.
 pub(super) struct Writing<'a> {
+    /// The file system.
+    pub(super) disk: &'a dyn Vfs,
     pub(super) overwrite: Overwrite,
     /// Files that the document has not read, and that are replaced whatever they contain: the user has decided.
     pub(super) replaces: &'a [PathBuf],
@@ -49,6 +53,40 @@ pub(super) enum SaveFailure {
     /// Any other failure.
     #[error("{0}")]
     Other(String),
+}
+
+/// A file that was not saved.
+pub(super) struct UnsavedFile {
+    /// The reason.
+    pub(super) reason: SaveFailure,
+    /// Its path, links resolved, and its stamp, where it has the new bytes all the same and the disk did not confirm them. The next save must not
+    /// take them for those of another program.
+    pub(super) own: Option<(PathBuf, FileStamp)>,
+}
+
+/// Saves a file.
+pub(super) fn save_file(
+    disk: &dyn Vfs,
+    path: &Path,
+    bytes: &[u8],
+    options: &SaveOptions<'_>,
+) -> Result<SaveOutcome, UnsavedFile> {
+    dragonfly_store::save(disk, path, bytes, options).map_err(|error| {
+        let stamp = match &error {
+            DiskError::Unconfirmed { path, .. } => path.canonicalize().ok().and_then(|path| {
+                let stamp = FileStamp::take(&RealFiles, &path).ok().filter(|stamp| stamp.is_of(bytes))?;
+                Some((path, stamp))
+            }),
+            _ => None,
+        };
+        UnsavedFile { reason: SaveFailure::of(error), own: stamp }
+    })
+}
+
+impl From<String> for UnsavedFile {
+    fn from(reason: String) -> Self {
+        Self { reason: SaveFailure::Other(reason), own: None }
+    }
 }
 
 impl SaveFailure {
