@@ -126,7 +126,7 @@ fn a_script_is_packed_with_what_it_includes_and_plays_as_before_where_it_is_unpa
     let bytes = pack(&path, &Cancel::default()).expect("an archive");
     let names: Vec<String> = read_archive(&bytes).expect("files").into_iter().map(|file| file.name).collect();
     assert_eq!(names, ["scene.xml", "parts/Fox.glb", "parts/intro.xml", "parts/more.xml"]);
-    let scene = load_scene(&path, &Cancel::default()).expect("a scene");
+    let scene = load_scene(&path, None, &Cancel::default()).expect("a scene");
     assert_eq!(scene.plan.length().seconds(), 3.0);
     fs::remove_file(folder.join("parts/more.xml")).expect("a file");
     let Err(PackError::Files(reasons)) = pack(&path, &Cancel::default()) else { panic!("it was packed") };
@@ -144,7 +144,7 @@ fn a_file_outside_of_the_folder_is_not_included_through_a_link() {
     fs::create_dir(folder.join("in")).expect("a folder");
     fs::copy(&path, folder.join("in/scene.xml")).expect("a file");
     std::os::unix::fs::symlink(folder.join("parts"), folder.join("in/parts")).expect("a link");
-    let error = load_scene(&folder.join("in/scene.xml"), &Cancel::default()).expect_err("it leads out");
+    let error = load_scene(&folder.join("in/scene.xml"), None, &Cancel::default()).expect_err("it leads out");
     assert!(error.to_string().contains("scene.xml:3:27: parts/intro.xml cannot be read"), "{error}");
     assert!(error.to_string().contains("leads out of"), "{error}");
 }
@@ -233,6 +233,6 @@ fn the_files_that_are_suggested_for_a_missing_one_are_the_first_in_alphabetical_
         fs::write(folder.join(&format!("parts/b{number:04}.xml")), MORE).expect("a file");
     }
     fs::write(&path, SCENE.replace("intro", "b00")).expect("a file");
-    let error = load_scene(&path, &Cancel::default()).expect_err("it is missing").to_string();
+    let error = load_scene(&path, None, &Cancel::default()).expect_err("it is missing").to_string();
     assert!(error.contains("did you mean \"parts/b0000.xml\"?"), "{error}");
 }

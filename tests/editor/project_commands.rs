@@ -223,3 +223,24 @@ fn an_error_of_an_included_file_names_that_file_and_its_line_and_column() {
     }
     expect(&path, &[("intro.xml", "2:14", "dur=\"soon\" is not a time")]);
 }
+
+#[test]
+fn each_script_of_a_project_is_chosen_by_its_id_or_its_file() {
+    let (_folder, path) = project("project-choice");
+    let at = |script: &[&str]| {
+        let all = [&["pose", text(&path), "--role", "ann", "--time", "0", "--json"], script].concat();
+        let printed: Value = serde_json::from_str(run(all).expect(0).text()).expect("JSON");
+        printed["poses"][0]["translation"][2].as_f64().expect("a number")
+    };
+    // In the first script it begins on the line, in the other one two meters in front of it.
+    assert_eq!((at(&[]), at(&["--script", "main"])), (0.0, 0.0));
+    assert_eq!((at(&["--script", "end"]), at(&["--script", "end.xml"])), (2.0, 2.0));
+    let listed = run(["script", text(&path), "--script", "end"]).expect(0).text().to_owned();
+    assert!(listed.contains("play") && !listed.contains("move"), "{listed}");
+    let wrong = run(["pose", text(&path), "--script", "fin", "--role", "ann", "--time", "0"]).expect(2);
+    assert!(wrong.stderr.contains("no script is called \"fin\"; there is main, end"), "{}", wrong.stderr);
+    let folder = path.parent().expect("a folder");
+    let alone = folder.join("end.xml");
+    let refused = run(["script", text(&alone), "--script", "end"]).expect(2);
+    assert!(refused.stderr.contains("only a project"), "{}", refused.stderr);
+}

@@ -66,7 +66,7 @@ fn every_text_of_the_examples_is_what_the_schemas_allow() {
 
 #[test]
 fn the_duel_has_a_rail_a_mark_rain_and_a_knife_that_falls_to_the_ground() {
-    let scene = load_scene(&example("duel"), &Cancel::default()).expect("an example");
+    let scene = load_scene(&example("duel"), None, &Cancel::default()).expect("an example");
     assert_eq!(scene.warnings, [""; 0]);
     let (plan, script) = (&scene.plan, &scene.script);
     let thing = |id: &str| plan.thing_called(id).expect(id);
@@ -201,7 +201,7 @@ fn wrong_orders_for_images_of_scenes_are_refused_with_what_there_is() {
 
 #[test]
 fn feet_of_the_walk_slide_less_than_five_millimeters_while_they_are_on_the_ground() {
-    let scene = load_scene(&example("walk"), &Cancel::default()).expect("an example");
+    let scene = load_scene(&example("walk"), None, &Cancel::default()).expect("an example");
     let plan = &scene.plan;
     let anna = plan.thing_called("anna").expect("a role");
     let model = plan.things()[anna].model.as_ref().expect("a model");

@@ -123,6 +123,18 @@ impl StageProject {
         self.elements_called("edits").find(|edits| edits.value("of") == Some(id))?.value("src")
     }
 
+    /// Returns the file of the script that is meant by `script`, an id or a file.
+    ///
+    /// # Errors
+    ///
+    /// The ids of all scripts, where none is meant.
+    pub fn script_called(&self, script: &str) -> Result<&str, Vec<&str>> {
+        let by_id = self.elements_called("script").find(|found| found.value("id") == Some(script));
+        let by_file = || self.elements_called("script").find(|found| found.value("src") == Some(script));
+        let found = by_id.or_else(by_file).and_then(|found| found.value("src"));
+        found.ok_or_else(|| self.elements_called("script").filter_map(|found| found.value("id")).collect())
+    }
+
     /// Returns the files of its scripts, in the order of the text.
     pub fn scripts(&self) -> impl Iterator<Item = &str> {
         self.elements_called("script").filter_map(|script| script.value("src"))

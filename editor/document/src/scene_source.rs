@@ -60,6 +60,19 @@ pub enum SceneLoadError {
     /// The project has no script.
     #[error("the project has no <script>")]
     NoScript,
+    /// The project has no script of this name.
+    #[error("{title}: no script is called \"{script}\"; there is {}", .ids.join(", "))]
+    NoSuchScript {
+        /// Name of the project's file.
+        title: String,
+        /// The name that was given.
+        script: String,
+        /// The ids of its scripts.
+        ids: Vec<String>,
+    },
+    /// A script was chosen, and the file is no project.
+    #[error("{0}: only a project (.meproj) has several scripts to choose from")]
+    NoProject(String),
     /// A text, or something that it names, is wrong.
     #[error("{}", listed(.0))]
     Wrong(Vec<CheckedText>),
@@ -75,12 +88,13 @@ fn listed(texts: &[CheckedText]) -> String {
     texts.iter().flat_map(of).collect::<Vec<_>>().join("\n")
 }
 
-/// Reads a script, or the first script of a project, and the models that it names. Files are read only from its folder and below.
+/// Reads a script, or of a project the one called `script` (an id or a file; the first one without it), and the models that it names. Files
+/// are read only from its folder and below.
 ///
 /// # Errors
 ///
-/// A text cannot be read, or something in it or in its models is wrong.
-pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoadError> {
+/// A text cannot be read, something in it or in its models is wrong, or no script of a project is called so.
+pub fn load_scene(path: &Path, script: Option<&str>, cancel: &Cancel) -> Result<LoadedScene, SceneLoadError> {
     let read = read_texts(path)?;
     let mut check = SceneCheck::of(Some(path));
     let main = read.texts.list().first().ok_or(SceneLoadError::NoScript)?;
@@ -88,8 +102,23 @@ pub fn load_scene(path: &Path, cancel: &Cancel) -> Result<LoadedScene, SceneLoad
         |name: &Arc<str>, errors| CheckedText { name: Arc::clone(name), errors, ..CheckedText::default() };
     let project = check.project(&read.texts);
     let project = project.map_err(|errors| SceneLoadError::Wrong(vec![wrong(&main.name, errors)]))?;
+    let chosen = match (script, &project) {
+        (None, _) => first_script(project.as_ref(), &read.texts),
+        (Some(script), Some(project)) => {
+            let file = project.script_called(script).map_err(|ids| {
+                let (title, script) = (main.name.to_string(), script.to_owned());
+                SceneLoadError::NoSuchScript {
+                    title,
+                    script,
+                    ids: ids.into_iter().map(str::to_owned).collect(),
+                }
+            })?;
+            read.texts.called(file)
+        }
+        (Some(_), None) => return Err(SceneLoadError::NoProject(main.name.to_string())),
+    };
     // A script that could not be read has its reason.
-    let file = first_script(project.as_ref(), &read.texts).ok_or_else(|| match &*read.warnings {
+    let file = chosen.ok_or_else(|| match &*read.warnings {
         [] => SceneLoadError::NoScript,
         warnings => SceneLoadError::Unread(warnings.join("\n")),
     })?;

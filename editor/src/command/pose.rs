@@ -5,7 +5,7 @@ use super::choice::{File, TakeChoice, clamp_time};
 use super::info::named;
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
-use super::scene::{self, RolePoses};
+use super::scene::{self, RolePoses, ScriptChoice};
 use super::table::{Side, Table};
 use super::time_argument::TimeArgument;
 use dragonfly_anim::data::{ModelData, Transform};
@@ -35,6 +35,8 @@ pub(super) struct PoseArguments {
     /// Role, prop or another thing of a scene, by its id; FILE is a scene (.xml) or a project (.meproj)
     #[arg(long, value_name = "ID", conflicts_with_all = ["take", "vertices"])]
     role: Option<String>,
+    #[command(flatten)]
+    script: ScriptChoice,
     /// Number of vertex positions per primitive [default: all in JSON, none in text]
     #[arg(long, value_name = "N")]
     vertices: Option<usize>,
@@ -85,7 +87,7 @@ impl PoseArguments {
         let Some(script) = self.file.scene(&self.take)? else {
             return Err(Failure::input("--role", "FILE has to be a scene (.xml) or a project (.meproj)"));
         };
-        let poses = RolePoses::of(&scene::load(script)?, role, &self.time)?;
+        let poses = RolePoses::of(&scene::load(script, &self.script)?, role, &self.time)?;
         if self.json { print_json(&poses) } else { print(|out| poses.write(out)) }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
 use super::run_command::RunCommand;
-use super::scene::{self, FrameRange, ShotChoice};
+use super::scene::{self, FrameRange, ScriptChoice, ShotChoice};
 use super::time_argument::TimeArgument;
 use super::{Failure, output, quiet, tell};
 use dragonfly_document::LoadedModel;
@@ -33,6 +33,8 @@ pub(super) struct RenderArguments {
     /// Camera of a scene: its id, or `shot` for the one that is shot, or `free` for --yaw and --pitch [default: shot]
     #[arg(long, value_name = "ID")]
     camera: Option<ShotChoice>,
+    #[command(flatten)]
+    script: ScriptChoice,
     /// PNG file to write; `-` is standard output
     #[arg(short, long, value_name = "out.png")]
     output: PathBuf,
@@ -98,14 +100,15 @@ impl RunCommand for RenderArguments {
                 time: self.time.as_ref(),
                 frames: self.frames,
                 camera: self.camera.unwrap_or_default(),
+                script: &self.script,
                 output: &self.output,
                 view: &self.view,
             };
             return scene::render(script, &order);
         }
-        if self.frames.is_some() || self.camera.is_some() {
+        if self.frames.is_some() || self.camera.is_some() || self.script.name().is_some() {
             return Err(Failure::input(
-                "--frames, --camera",
+                "--frames, --camera, --script",
                 "FILE has to be a scene (.xml) or a project (.meproj)",
             ));
         }

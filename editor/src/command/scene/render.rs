@@ -1,5 +1,6 @@
 //! Images of a scene: `dragonfly render SCENE.xml --time S --camera ID`.
 
+use super::ScriptChoice;
 use crate::command::render::{RenderView, png, refusal, studio, tell_warnings};
 use crate::command::time_argument::TimeArgument;
 use crate::command::{Failure, output, tell};
@@ -78,13 +79,14 @@ pub(in crate::command) struct RenderOrder<'a> {
     /// Frames in place of the time.
     pub(in crate::command) frames: Option<FrameRange>,
     pub(in crate::command) camera: ShotChoice,
+    pub(in crate::command) script: &'a ScriptChoice,
     pub(in crate::command) output: &'a Path,
     pub(in crate::command) view: &'a RenderView,
 }
 
 /// Renders images of the scene of a script.
 pub(in crate::command) fn render(script: &Path, order: &RenderOrder<'_>) -> Result<(), Failure> {
-    let scene = super::load(script)?;
+    let scene = super::load(script, order.script)?;
     let through = order.camera.camera(&scene.plan)?;
     let view = Arc::new(scene.view());
     let settings = order.view.settings(scene.script.size());

@@ -1,6 +1,6 @@
 //! `dragonfly script SCENE.xml`: prints when each action begins and ends; `--schema` prints the schema of scripts.
 
-use super::load;
+use super::{ScriptChoice, load};
 use crate::command::Failure;
 use crate::command::output::{print, print_json};
 use crate::command::run_command::RunCommand;
@@ -13,25 +13,27 @@ use std::path::PathBuf;
 /// Print when each action of a scene's script begins and ends, or the schema of scripts
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    group = clap::ArgGroup::new("script").required(true),
+    group = clap::ArgGroup::new("source").required(true),
     after_help = "\
 Times are in seconds. The schema is in RELAX NG, for editors that complete and check XML; `dragonfly check` has better messages.\n\n\
 Examples:\n  dragonfly script duel.xml\n  dragonfly script --schema > script.rng\n  dragonfly script --schema project > project.rng"
 )]
 pub(in crate::command) struct ScriptArguments {
     /// A scene (.xml) or a project (.meproj)
-    #[arg(value_name = "SCENE", group = "script")]
+    #[arg(value_name = "SCENE", group = "source")]
     file: Option<PathBuf>,
     /// Print the schema of scripts, or that of another kind of text
     #[arg(
         long,
-        group = "script",
-        conflicts_with = "json",
+        group = "source",
+        conflicts_with_all = ["json", "script"],
         value_name = "KIND",
         num_args = 0..=1,
         default_missing_value = "script"
     )]
     schema: Option<SchemaKind>,
+    #[command(flatten)]
+    script: ScriptChoice,
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
@@ -89,7 +91,7 @@ impl RunCommand for ScriptArguments {
             return print(|out| out.write_all(kind.vocabulary().schema().as_bytes()));
         }
         let Some(file) = self.file else { return Err(Failure::input("SCENE", "is missing")) };
-        let times = ScriptTimes::of(&load(&file)?);
+        let times = ScriptTimes::of(&load(&file, &self.script)?);
         if self.json { print_json(&times) } else { print(|out| times.table().write(out)) }
     }
 }
