@@ -12,7 +12,7 @@ fn vs_grid(@builtin(vertex_index) index: u32) -> Ground {
     let corner = vec2f(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
     let offset = corner * frame.grid.z;
     let world = frame.grid.xy + offset;
-    return Ground(frame.clip_from_world * vec4f(world.x, 0.0, world.y, 1.0), offset, world);
+    return Ground(frame.clip_from_world * vec4f(world.x, frame.counts.w, world.y, 1.0), offset, world);
 }
 
 // Coverage by lines every `step` units, 0..1; `width` in pixels.
@@ -45,7 +45,7 @@ fn fs_grid(in: Ground) -> @location(0) vec4f {
     let appearing = frame.grid_color.w;
     let edge = length(in.offset) / frame.grid.z;
     let fade = pow(clamp(1.0 - edge, 0.0, 1.0), 2.2);
-    let glance = abs(towards_viewer(vec3f(in.world.x, 0.0, in.world.y)).y);
+    let glance = abs(towards_viewer(vec3f(in.world.x, frame.counts.w, in.world.y)).y);
     let grazing = smoothstep(0.0, 0.16, glance);
 
     let small = lines(in.world, footprint, fine, 1.0) * 0.11 * appearing;

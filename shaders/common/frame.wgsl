@@ -40,7 +40,7 @@ struct Frame {
     accent: vec4f,
     // Spots of the contact shadow: center x and z, radius, strength.
     contact: array<vec4f, SPOTS>,
-    // Number of lights of the scene, share of the studio's ambient light, number of spots.
+    // Number of lights of the scene, share of the studio's ambient light, number of spots, height of the ground.
     counts: vec4f,
     lights: array<SceneLight, LIGHTS>,
 }

@@ -32,12 +32,21 @@ pub(super) fn add_boxes(boxes: &mut [AxisBox], primitive: &Primitive, first: usi
     }
 }
 
-/// Adds the spots below a model of this radius, with the boxes of its parts and their matrices, to `spots`: center x and z, radius,
+/// The size that decides how far up parts leave a shadow, and the height at which it lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShadowedGround {
+    /// Radius of the model.
+    pub(super) radius: f32,
+    /// Height of the ground, scene space.
+    pub(super) height: f32,
+}
+
+/// Adds the spots on the ground below a model, with the boxes of its parts and their matrices, to `spots`: center x and z, radius,
 /// strength. The strongest replace those that are weaker. Allocates nothing.
-pub(super) fn add_spots(spots: &mut [Vec4], boxes: &[AxisBox], matrices: &[Affine], radius: f32) {
-    let reach = (REACH * radius).max(1e-6);
+pub(super) fn add_spots(spots: &mut [Vec4], boxes: &[AxisBox], matrices: &[Affine], ground: ShadowedGround) {
+    let reach = (REACH * ground.radius).max(1e-6);
     for (part, matrix) in boxes.iter().zip(matrices) {
-        let Some(spot) = spot(part, matrix, reach) else { continue };
+        let Some(spot) = spot(part, matrix, reach, ground.height) else { continue };
         let weakest = spots.iter_mut().min_by(|a, b| a.w.total_cmp(&b.w));
         if let Some(weakest) = weakest.filter(|weakest| weakest.w < spot.w) {
             *weakest = spot;
@@ -46,10 +55,11 @@ pub(super) fn add_spots(spots: &mut [Vec4], boxes: &[AxisBox], matrices: &[Affin
 }
 
 /// Returns the spot below a part; `None` if it is too high, below the ground, or empty.
-fn spot(part: &AxisBox, matrix: &Affine, reach: f32) -> Option<Vec4> {
+fn spot(part: &AxisBox, matrix: &Affine, reach: f32, ground: f32) -> Option<Vec4> {
     let (center, half) = (part.center(), (part.max - part.min) * 0.5);
     let moved = |row: Vec4| (row.dot(center.extend(1.0)), row.truncate().abs().dot(half));
-    let [x, y, z] = [matrix.x, matrix.y, matrix.z].map(moved);
+    let [x, mut y, z] = [matrix.x, matrix.y, matrix.z].map(moved);
+    y.0 -= ground;
     let size = Vec3::new(x.1, y.1, z.1);
     if !size.is_finite() || size.cmplt(Vec3::ZERO).any() || y.0 + y.1 < 0.0 {
         return None;

@@ -199,13 +199,13 @@ impl Studio {
         let [width, height] = settings.size;
         self.stage.resize(settings.size);
         let scene = &mut self.stage.scene;
-        scene.look = Look {
+        scene.set_look(Look {
             viewport: [0, 0, width, height],
             skeleton: settings.skeleton,
             grid: settings.grid,
             contact_shadow: settings.grid && settings.look.contact_shadow,
             ..settings.look.clone()
-        };
+        });
         scene.background_alpha = 1.0;
         if let Some([red, green, blue, alpha]) = settings.background {
             let color = [red, green, blue].map(|value| linear(f32::from(value) / 255.0));

@@ -15,6 +15,7 @@
 
 mod appearance;
 mod appearance_sender;
+mod around;
 pub mod batch;
 mod beside;
 mod between;
@@ -60,6 +61,7 @@ mod x11;
 
 pub use appearance::{AnyAppearance, Appearance, Appearances};
 pub use appearance_sender::AppearanceSender;
+pub use around::{AroundClip, SceneAround};
 pub use between::between;
 pub use cast::{PickedThing, PosedScene, SurfaceHit, ThroughCamera, placeholder_box, viewport_camera};
 pub use connection::{Connection, TargetWindow};

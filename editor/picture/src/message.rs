@@ -4,6 +4,7 @@ use super::appearance::AnyAppearance;
 use super::error::GraphicsError;
 use super::surface::WindowSurface;
 use super::thumbnail::{Thumbnail, ThumbnailOrder};
+use crate::around::SceneAround;
 use crate::camera::Camera;
 use crate::cast::{PickedThing, ThroughCamera};
 use crate::gizmo::RoleColors;
@@ -84,6 +85,8 @@ pub struct Look {
     pub hidden_things: Arc<[Arc<str>]>,
     /// A second view of the scene of a script, next to the viewport; `None` for none.
     pub second: Option<SecondView>,
+    /// The scene around a model that is edited in it; `None` for none.
+    pub around: Option<Arc<SceneAround>>,
 }
 
 /// A second view of the scene of a script: through a camera of it, without handles and helpers.
@@ -121,6 +124,7 @@ impl Default for Look {
             helpers: false,
             hidden_things: Arc::default(),
             second: None,
+            around: None,
         }
     }
 }

@@ -3,9 +3,10 @@
 //! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
 use super::appearance::Appearances;
+use super::around::PosedAround;
 use super::batch::DrawBatch;
 use super::cast::{PosedScene, ThroughCamera, made_model};
-use super::contact::add_spots;
+use super::contact::{ShadowedGround, add_spots};
 use super::control::{ControlFrame, SceneControls};
 use super::draw_set::DrawSet;
 use super::frustum::ViewFrustum;
@@ -43,6 +44,8 @@ pub struct Scene {
     model: Option<PosedModel>,
     /// The things of a script, which are shown in place of the model.
     cast: Option<PosedScene>,
+    /// The scene around a model that is edited in it.
+    around: Option<PosedAround>,
     /// The camera of the frame prepared last.
     seen: Camera,
     skin: Option<SkinPicker>,
@@ -67,6 +70,7 @@ impl Scene {
             controls: SceneControls::default(),
             model: None,
             cast: None,
+            around: None,
             seen: Camera::default(),
             skin: None,
             shown: None,
@@ -97,6 +101,10 @@ impl Scene {
     /// Sets the look of the viewport.
     pub fn set_look(&mut self, look: Look) {
         let hides_others = look.hidden_things != self.look.hidden_things;
+        if look.around != self.look.around {
+            let before = self.around.take();
+            self.around = look.around.as_ref().and_then(|around| PosedAround::new(around, before));
+        }
         self.look = look;
         if hides_others && let Some(view) = self.shown.take() {
             self.show(&view);
@@ -149,13 +157,21 @@ impl Scene {
     /// Returns what is drawn: the model, or the models of the things of a script.
     pub fn draw_sets(&self) -> impl Iterator<Item = &DrawSet> + Clone {
         let model = self.model_in_view().map(PosedModel::draws);
-        model.into_iter().chain(self.cast.iter().flat_map(PosedScene::draw_sets))
+        let scenes = self.cast.iter().chain(self.around_in_view());
+        model.into_iter().chain(scenes.flat_map(PosedScene::draw_sets))
     }
 
     /// The draw calls of blended surfaces, farthest first.
     pub(crate) fn blended_runs(&self) -> impl Iterator<Item = (&DrawSet, &[DrawBatch])> {
         let of_model = self.model_in_view().map(|model| (model.draws(), model.batches().blended()));
-        of_model.into_iter().chain(self.cast.iter().flat_map(PosedScene::blended_runs))
+        // What is around a model is behind it more often than in front of it.
+        let of_scenes = self.around_in_view().into_iter().chain(&self.cast);
+        of_scenes.flat_map(PosedScene::blended_runs).chain(of_model)
+    }
+
+    /// The scene around the model that is shown.
+    fn around_in_view(&self) -> Option<&PosedScene> {
+        self.around.as_ref().filter(|_| self.cast.is_none()).map(PosedAround::scene)
     }
 
     /// Returns whether the scene changes by itself after `now`.
@@ -189,6 +205,8 @@ impl Scene {
         let time = self.playback.time_at(now);
         if let Some(cast) = &mut self.cast {
             cast.pose(self.playback.seconds_at(now));
+        } else if let Some(around) = &mut self.around {
+            around.pose(self.playback.take, self.playback.seconds_at(now));
         }
         let size = self.size();
         let through =
@@ -213,7 +231,12 @@ impl Scene {
         let frustum = self.frustum();
         match (&mut self.cast, &mut self.model) {
             (Some(cast), _) => cast.batch(eye, back, &frustum),
-            (None, Some(model)) => model.batch(&frustum),
+            (None, Some(model)) => {
+                model.batch(&frustum);
+                if let Some(around) = &mut self.around {
+                    around.scene_mut().batch(eye, back, &frustum);
+                }
+            }
             (None, None) => {}
         }
     }
@@ -283,7 +306,7 @@ impl Scene {
 
     fn frame_uniform(&self) -> FrameUniform {
         let (camera, look) = (&self.seen, &self.look);
-        let bounds = self.bounds().sphere;
+        let bounds = self.drawn_bounds();
         let size = self.size().max(Vec2::ONE);
         let eye = match camera.projection {
             Projection::Perspective => camera.eye().extend(1.0),
@@ -300,8 +323,9 @@ impl Scene {
             .map(|color| (Vec3::from(color) * self.background_alpha).extend(self.background_alpha));
         let (spacing, appeared) = grid_spacing(camera.distance);
         // A high camera sees far; the ground must not end below it.
-        let radius = camera.distance.max(camera.eye().y.abs()) * 5.0;
-        let (contact, spot_count) = self.contact(bounds.radius);
+        let ground = self.cast.as_ref().map_or(0.0, |cast| cast.ground());
+        let radius = camera.distance.max((camera.eye().y - ground).abs()) * 5.0;
+        let (contact, spot_count) = self.contact(self.bounds().sphere.radius);
         let mut lights = [LightUniform::default(); LIGHTS];
         let light_count = self.cast.as_ref().map_or(0, |cast| cast.write_lights(&mut lights));
         // A sun fills the shadows less than the lamps of a studio do.
@@ -319,7 +343,7 @@ impl Scene {
             bone_color: Vec3::from(look.bone_color).extend(1.0),
             accent: Vec3::from(look.accent).extend(1.0),
             contact,
-            counts: Vec4::new(light_count as f32, ambient, spot_count as f32, 0.0),
+            counts: Vec4::new(light_count as f32, ambient, spot_count as f32, ground),
             lights,
         }
     }
@@ -334,9 +358,18 @@ impl Scene {
             return (*cast.spots(), SPOTS);
         }
         if let Some(model) = &self.model {
-            add_spots(&mut spots[..MODEL_SPOTS], model.part_boxes(), model.palettes(), radius);
+            let ground = ShadowedGround { radius, height: 0.0 };
+            add_spots(&mut spots[..MODEL_SPOTS], model.part_boxes(), model.palettes(), ground);
         }
         (spots, MODEL_SPOTS)
+    }
+
+    /// Returns a sphere around everything that is drawn.
+    fn drawn_bounds(&self) -> Sphere {
+        let own = self.bounds().sphere;
+        let Some(around) = self.around_in_view().map(|around| around.bounds().sphere) else { return own };
+        let radius = own.radius.max(own.center.distance(around.center) + around.radius);
+        Sphere { radius, ..own }
     }
 
     /// Bounds of the model at rest, or of the things of a script at the time prepared last; empty, at the origin, without either.

@@ -38,7 +38,7 @@ pub struct FrameUniform {
     /// Spots of the contact shadow: center x and z, radius, strength.
     pub contact: [Vec4; SPOTS],
     /// Number of lights of the scene, which replace those of the studio if there are any; share of the studio's ambient light; number of
-    /// spots.
+    /// spots; height of the ground.
     pub counts: Vec4,
     /// Lights of the scene.
     pub lights: [LightUniform; LIGHTS],

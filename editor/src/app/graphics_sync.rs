@@ -164,6 +164,7 @@ fn look(
         through: state.through.clone(),
         helpers: state.scene().is_some() && settings.helpers,
         hidden_things,
+        around: state.around.cloned(),
         second: state
             .second_view
             .filter(|_| state.scene().is_some())

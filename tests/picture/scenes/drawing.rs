@@ -1,7 +1,10 @@
 //! Pictures of scenes: things of one model share their draw calls, what is transparent is drawn from back to front, lamps shine.
 
-use super::{SIZE, arms, projected, script, settings, shown, state, view};
+use super::{SIZE, arms, projected, script, settings, shown, state, view, view_in};
 use dragonfly_anim::fast::matrix::mat4;
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::ScriptContext;
+use dragonfly_kit::document::arm;
 use dragonfly_kit::picture::images::difference;
 use dragonfly_kit::picture::studio;
 use dragonfly_picture::{PictureSettings, ThingAppearance, ThroughCamera};
@@ -80,6 +83,34 @@ fn what_is_transparent_is_drawn_from_back_to_front_also_between_models() {
     let one = studio.render_scene(&super::view(&text), &settings(ThroughCamera::Shot, 0.0)).unwrap();
     assert_eq!(difference(&two, &one), 0, "the picture does not depend on how models are shared");
     assert!(blended > studio.stage().draw_calls());
+}
+
+#[test]
+fn the_grid_and_the_contact_shadow_are_as_high_as_the_ground_of_the_project() {
+    let Some(mut studio) = studio::studio() else { return };
+    // The same scene twice: on the ground at 0, and everything three meters higher.
+    let mut draw = |ground: u32| {
+        let project = format!("<project version=\"1\"><scene ground=\"{ground}\"/></project>");
+        let project = StageProject::read(project.into()).expect("a project");
+        let context = ScriptContext { project: Some(project), ..ScriptContext::default() };
+        let [eye, target] = [ground + 2, ground + 1];
+        let cast = format!(
+            r#"<role id="a" model="arm" at="0 {ground} 0"/><camera id="eye" at="0 {eye} 6" look="0 {target} 0"/>"#
+        );
+        let view = view_in(&context, &script(&cast, "<wait dur=\"1\"/>"), &arm::loaded());
+        let settings = PictureSettings { grid: true, ..settings(ThroughCamera::Shot, 0.0) };
+        studio.render_scene(&view, &settings).expect("a picture")
+    };
+    let (low, high) = (draw(0), draw(3));
+    let changed = low
+        .pixels()
+        .zip(high.pixels())
+        .filter(|(a, b)| a.0.iter().zip(b.0).any(|(&a, b)| a.abs_diff(b) > 2))
+        .count();
+    let grid = low.pixels().filter(|pixel| pixel[3] > 0).count();
+    println!("{changed} of {} pixels differ", low.pixels().count());
+    assert!(grid * 3 > low.pixels().count(), "the ground is seen");
+    assert!(changed * 200 < low.pixels().count(), "{changed} pixels");
 }
 
 /// Returns the mean brightness of the left and the right half of what is drawn.

@@ -1,5 +1,6 @@
 //! The scene of a script: everything at its place and in its pose, seen through its cameras, in the light of its lamps.
 
+mod around;
 mod cameras;
 mod cost;
 mod drawing;
@@ -11,7 +12,7 @@ mod second_view;
 mod shapes;
 mod thumbnail;
 
-use dragonfly_anim::stage::script::StageScript;
+use dragonfly_anim::stage::script::{ScriptContext, StageScript};
 use dragonfly_anim::stage::{StageAssets, StageModel, StagePlan, StageScene};
 use dragonfly_document::{LoadedModel, SceneModel, SceneView};
 use dragonfly_kit::document::arm;
@@ -48,7 +49,13 @@ pub(crate) fn view(text: &str) -> Arc<SceneView> {
 }
 
 fn view_of(text: &str, loaded: &Arc<LoadedModel>) -> Arc<SceneView> {
-    let script = StageScript::read(text).unwrap_or_else(|errors| panic!("{}", errors[0].in_file(text)));
+    view_in(&ScriptContext::default(), text, loaded)
+}
+
+/// Returns the view of a script in the project of a context.
+fn view_in(context: &ScriptContext, text: &str, loaded: &Arc<LoadedModel>) -> Arc<SceneView> {
+    let script = StageScript::read_in(text.into(), context);
+    let script = script.unwrap_or_else(|errors| panic!("{}", errors[0].in_file(text)));
     let (mut assets, mut models) = (StageAssets::default(), BTreeMap::new());
     for source in script.things().filter_map(|thing| thing.value("model")) {
         let is_lost = source == "lost";

@@ -16,7 +16,7 @@ pub(crate) use placeholder::made_model;
 pub use placeholder::placeholder_box;
 
 use super::batch::DrawBatch;
-use super::contact::add_spots;
+use super::contact::{ShadowedGround, add_spots};
 use super::draw_set::{DrawSet, PaletteLayout};
 use super::frustum::ViewFrustum;
 use super::uniform::{LightUniform, SPOTS};
@@ -26,7 +26,7 @@ use dragonfly_anim::fast::simd::SimdLevel;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{PlannedThing, StageCamera, StagePlan, StageScene};
 use dragonfly_document::{LoadedModel, SceneModel, SceneView};
-use glam::{Vec3, Vec4};
+use glam::{Mat4, Vec3, Vec4};
 use group::CastGroup;
 use placeholder::Placeholders;
 use std::collections::{HashMap, HashSet};
@@ -82,6 +82,8 @@ pub struct PosedScene {
     /// Draw calls of blended surfaces, farthest first: a group, and a part of its draw calls.
     runs: Vec<(usize, Range<usize>)>,
     at: Option<StageTime>,
+    /// Matrix from the space of the scene to that in which it is drawn.
+    frame: Mat4,
 }
 
 impl PosedScene {
@@ -147,8 +149,14 @@ impl PosedScene {
             back_to_front: Vec::with_capacity(blended),
             runs: Vec::with_capacity(blended),
             at: None,
+            frame: Mat4::IDENTITY,
             plan,
         })
+    }
+
+    /// Returns the same scene in another space, by the matrix from its own space to that one.
+    pub(super) fn seen_from(self, frame: Mat4) -> Self {
+        Self { frame, at: None, ..self }
     }
 
     /// The plan.
@@ -204,7 +212,8 @@ impl PosedScene {
                 place.scale = Vec3::ONE;
             }
             let pose = self.state.things[thing].pose.as_ref();
-            self.boxes[thing] = self.groups[group].pose(self.level, copy, place.to_matrix(), pose);
+            self.boxes[thing] =
+                self.groups[group].pose(self.level, copy, self.frame * place.to_matrix(), pose);
             around = around.union(self.boxes[thing]);
         }
         self.bounds = bounds_of(&around);
@@ -217,11 +226,12 @@ impl PosedScene {
         self.spots = [Vec4::ZERO; SPOTS];
         let count = self.members.iter().flatten().count();
         let each = (SPOTS / count.max(1)).clamp(1, 16);
+        let height = self.ground();
         let members = self.members.iter().enumerate().filter_map(|(thing, member)| Some((thing, (*member)?)));
         for (spots, (thing, member)) in self.spots.chunks_exact_mut(each).zip(members) {
             let draws = self.groups[member.group].draws();
-            let reach = self.boxes[thing].half().length();
-            add_spots(spots, draws.part_boxes(), draws.palettes_of(member.copy), reach);
+            let ground = ShadowedGround { radius: self.boxes[thing].half().length(), height };
+            add_spots(spots, draws.part_boxes(), draws.palettes_of(member.copy), ground);
         }
     }
 
@@ -248,6 +258,11 @@ impl PosedScene {
                 _ => {}
             }
         }
+    }
+
+    /// Returns the height of the ground, meters.
+    pub(super) fn ground(&self) -> f32 {
+        self.plan.ground_plane() as f32
     }
 
     /// The spots of the contact shadow at the time computed last.
