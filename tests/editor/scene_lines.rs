@@ -1,6 +1,6 @@
 //! Lines and paths drawn with the mouse in the viewport of a scene.
 
-use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::scene_bench::{FOXES, new_lines, scene, shared, text};
 use crate::workbench::Window;
 use dragonfly::control::line::LineUse;
 use dragonfly::control::{Button, InputEvent, Key, Modifiers};
@@ -102,6 +102,20 @@ fn a_stroke_on_the_ground_becomes_a_path_of_the_script_that_follows_it() {
     }
     let read = window.state().state.read();
     assert_eq!(read.scene_editing.things(), [Box::from("path")]);
+}
+
+#[test]
+fn paths_are_drawn_on_the_ground_of_the_project_however_high_it_is() {
+    let ground = "<project version=\"1\"><scene ground=\"0.5\"/><script id=\"main\" src=\"scene.xml\"/><script id=\"end\" src=\"end.xml\"/></project>";
+    let mut window = shared(ground, FOXES, "<script version=\"1\"/>").window();
+    run(&mut window, Id::ToolPath);
+    let places = quarter().into_iter().map(|place| place.with_y(0.5)).collect::<Vec<_>>();
+    stroke(&mut window, &places);
+    let drawn = points(&new_lines(FOXES, &text(&window))[0]);
+    assert!(drawn.iter().all(|point| point.y == 0.5), "{drawn:?}");
+    let ends = [drawn[0], drawn[drawn.len() - 1]];
+    let away = [ends[0].distance(places[0]), ends[1].distance(places[places.len() - 1])];
+    assert!(away.iter().all(|away| *away < 0.03), "{ends:?}");
 }
 
 #[test]

@@ -193,3 +193,32 @@ fn the_attributes_of_the_selected_line_are_edited_as_fields() {
         |part: &str| window.state().state.read().status.lines().any(|message| message.text.contains(part));
     assert!(said("is not a color such as #ffcc00"));
 }
+
+#[test]
+fn a_note_is_shown_up_to_the_next_one_that_is_drawn_later_and_all_of_it_is_one_step() {
+    let mut window = project(FOXES, NONE).window();
+    let draw = |window: &mut Window, seconds: f32| {
+        seek(window, seconds);
+        run(window, Id::LinesOnGround);
+        run(window, Id::ToolLine);
+        stroke(window, &[DVec3::ZERO, DVec3::new(0.3, 0.0, 0.2), DVec3::new(0.6, 0.0, 0.1)]);
+        run(window, Id::ToolLine);
+    };
+    draw(&mut window, 0.5);
+    draw(&mut window, 0.5);
+    let both = lines(&window);
+    assert_eq!((both.matches("from=\"0.5\"").count(), both.matches(" to=").count()), (2, 0), "{both}");
+    draw(&mut window, 1.25);
+    let new = lines(&window);
+    assert_eq!(new.matches("to=\"1.25\"").count(), 2, "{new}");
+    assert_eq!(new.matches("from=\"1.25\"").count(), 1, "{new}");
+    let steps = window.state().steps();
+    assert_eq!(steps, (3, 3));
+    window.state_mut().change(Change::Undo);
+    window.run_steps(2);
+    assert_eq!(lines(&window), both, "undo takes both back");
+    // Lines that are shown all the time end nothing.
+    window.state_mut().state.execute(Request::Command(Id::ToggleLinesFrom));
+    draw(&mut window, 2.0);
+    assert_eq!(lines(&window).matches(" to=").count(), 0);
+}

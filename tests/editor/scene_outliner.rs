@@ -1,11 +1,10 @@
 //! The list of things: selected, renamed, hidden, added, deleted.
 
-use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::scene_bench::{FOXES, new_lines, project, scene, text};
 use crate::workbench::{Window, type_into};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
-use dragonfly_document::bones::Choice;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
@@ -64,19 +63,10 @@ fn an_added_thing_is_one_line_and_selected() {
 }
 
 #[test]
-fn a_thing_that_actions_name_is_not_deleted() {
-    let mut window = window();
-    let select = |window: &mut Window, ids: &[&str]| {
-        let ids = ids.iter().map(|id| (*id).into()).collect();
-        window.state_mut().state.execute(Request::Scene(SceneRequest::SelectThings(ids, Choice::Replace)));
-        window.run_steps(1);
-    };
-    select(&mut window, &["ben"]);
-    run(&mut window, Id::SceneDelete);
-    assert_eq!(text(&window), FOXES);
-    select(&mut window, &["door"]);
-    run(&mut window, Id::SceneDelete);
-    assert_eq!(text(&window), FOXES.replace("    <mark   id=\"door\"  at=\"0.6 0 0.8\"/>\n", ""));
+fn lines_are_listed_while_a_search_finds_no_thing_and_in_a_project_without_things() {
+    let lines = r#"<lines version="1"><line id="note" points="0 0 0  1 0 0  2 0 0  3 0 0"/></lines>"#;
+    let window = project(r#"<script version="1"/>"#, lines).window();
+    assert!(window.query_by_label("note, line").is_some());
 }
 
 #[test]

@@ -206,6 +206,47 @@ fn the_model_of_a_thing_is_opened_in_place_and_the_scene_shown_again() {
     assert_eq!(bench.state.execute(Request::Command(Id::BackToScene)), None, "the model is still being read");
     let model = View { waiting_scene: Some("scene.xml".into()), ..fixture::full() };
     bench.state.show(model);
+    let around = bench.state.read().around.cloned().expect("the scene is around it");
+    assert_eq!(around.left_out, [Arc::from("anna")], "it is not drawn twice");
+    bench.state.execute(Request::Command(Id::ToggleAround));
+    assert!(bench.state.read().around.is_none(), "it can be switched off");
     let back = bench.state.execute(Request::Command(Id::BackToScene));
     assert_eq!(sent(back), DocumentMessage::ShowScene);
+}
+
+#[test]
+fn a_model_is_opened_at_the_time_and_the_place_that_it_has_in_the_scene_and_seen_from_the_same_side() {
+    let mut bench = scene(FOXES);
+    // In the midst of the second repetition of a clip that began half a second early.
+    let bar = |bench: &Workbench| {
+        let lanes = bench.state.read().scene_editing.lanes().clone();
+        lanes.bar_of(6).expect("the run").1.clone()
+    };
+    let bar = bar(&bench);
+    let (once, after) = (bar.once.seconds(), 0.25);
+    let time = bar.begin.seconds() + once + after;
+    bench.state.execute(Request::Seek(time as f32));
+    let eye = bench.state.read().camera.eye();
+    bench.state.execute(Request::Scene(SceneRequest::EditModel("anna".into())));
+    let loaded = match &bench.state.read().scene().expect("a scene").models["Fox.glb"] {
+        dragonfly_document::SceneModel::Loaded(loaded) => Arc::clone(loaded),
+        other => panic!("{other:?}"),
+    };
+    let run = loaded.model.animation.takes.iter().position(|take| take.name == "Run").expect("a take");
+    let model = View { waiting_scene: Some("scene.xml".into()), ..View::opened(5, loaded) };
+    bench.state.show(model);
+    let read = bench.state.read();
+    assert_eq!(read.playback.take, Some(run), "the take that it plays there");
+    assert!((f64::from(read.time()) - after).abs() < 1e-3, "{} s", read.time());
+    assert!(!read.playback.playing);
+    let around = read.around.expect("the scene is around it");
+    assert!((around.time_of(Some(run), f64::from(read.time())) - time).abs() < 1e-3);
+    // The role faces +x, and its model +z; the scene is a hundredth of its size.
+    let ahead = around.model_from_scene.transform_vector3(glam::Vec3::X);
+    assert!(ahead.distance(glam::Vec3::Z * 100.0) < 0.05, "{ahead}");
+    let seen = around.model_from_scene.inverse().transform_point3(read.camera.eye());
+    assert!(seen.distance(eye) < 0.05, "{seen}, not {eye}");
+    // Another model, opened for itself, has nothing around it.
+    bench.state.show(View { generation: 9, ..fixture::full() });
+    assert!(bench.state.read().around.is_none());
 }

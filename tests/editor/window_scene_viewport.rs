@@ -11,13 +11,13 @@ use dragonfly_picture::gizmo::GizmoView;
 use glam::{DVec3, Vec2, Vec3};
 
 /// Returns the camera of the window.
-fn camera(visit: &mut Visit) -> Camera {
+pub(crate) fn camera(visit: &mut Visit) -> Camera {
     let [x, y, z, distance, yaw, pitch] = numbers(&visit.shown("camera"));
     Camera { target: Vec3::new(x, y, z), distance, yaw, pitch, ..Camera::default() }
 }
 
 /// Returns where the window shows a point.
-fn place(visit: &mut Visit, point: DVec3) -> Vec2 {
+pub(crate) fn place(visit: &mut Visit, point: DVec3) -> Vec2 {
     let camera = camera(visit);
     let [left, top, width, height] = numbers(&visit.shown("viewport"));
     let view = GizmoView::new(&camera, Vec2::new(width, height));

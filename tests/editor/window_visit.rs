@@ -72,6 +72,19 @@ impl Visit {
         Self { editor, screen, file, folder, controls: BTreeMap::new(), read: 0, saved: 0 }
     }
 
+    /// Opens a project, the first of these files, in a folder with a copy of Fox.
+    pub(crate) fn of_project(name: &str, files: &[(&str, &str)]) -> Self {
+        let folder = Folder::new(name);
+        fox(&folder);
+        for (name, text) in files {
+            std::fs::write(folder.join(name), text).unwrap();
+        }
+        let file = folder.join(files[0].0);
+        let mut screen = Screen::new(name, 1280, 800);
+        let editor = start(&mut screen, &folder, &file, &[]);
+        Self { editor, screen, file, folder, controls: BTreeMap::new(), read: 0, saved: 0 }
+    }
+
     /// Starts the program again after it has ended, on a new screen if one is named.
     pub(crate) fn again(&mut self, screen: Option<&str>) {
         if let Some(name) = screen {

@@ -216,12 +216,16 @@ impl StageRate {
         ((twice + by * twice.signum()) / (2 * by)) as i64
     }
 
-    /// Returns the time that a clock of single precision means by `seconds`: within its precision near a frame that frame, exactly.
+    /// Returns the time that a clock of single precision means by `seconds`: within its precision near a frame that frame, exactly, and near
+    /// a whole number of milliseconds that number.
     pub fn time_of(self, seconds: f64) -> StageTime {
         let time = StageTime::from_seconds(seconds);
         let frame = self.frame(self.nearest_frame(time));
+        let (ticks, thousandth) = (time.ticks(), MILLISECOND.ticks());
+        let round = StageTime::from_ticks((ticks + thousandth / 2).div_euclid(thousandth) * thousandth);
         let precision = f64::from(f32::EPSILON) * seconds.abs().max(1.0);
-        if (frame.seconds() - seconds).abs() <= precision { frame } else { time }
+        let is_near = |other: &StageTime| (other.seconds() - seconds).abs() <= precision;
+        [frame, round].into_iter().find(is_near).unwrap_or(time)
     }
 
     /// Returns the frames per second, rounded to the nearest `f64`.

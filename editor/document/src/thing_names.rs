@@ -4,7 +4,7 @@ use super::SceneView;
 use super::edit::{EditScript, ScriptLabel, TextRef};
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::script::ScriptTree;
-use dragonfly_anim::stage::splice::{TextSplices, is_used, rename_references, set_attribute};
+use dragonfly_anim::stage::splice::{TextSplices, elements_that_name, rename_references, set_attribute};
 use std::sync::Arc;
 
 /// Returns the edits by which all texts of a project except the project itself and the script that is shown name a thing of the shared cast
@@ -48,8 +48,9 @@ pub fn references_of_renamed_thing(
 ///
 /// A script has errors, so that its names are not known.
 pub fn script_that_names(scene: &SceneView, thing: &str) -> Result<Option<String>, String> {
-    let names =
-        |(_, name, tree): (usize, Arc<str>, ScriptTree)| is_used(&tree, thing).then(|| name.to_string());
+    let names = |(_, name, tree): (usize, Arc<str>, ScriptTree)| {
+        elements_that_name(&tree, thing).next().is_some().then(|| name.to_string())
+    };
     Ok(other_scripts(scene)?.into_iter().find_map(names))
 }
 

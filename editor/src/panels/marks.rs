@@ -1,10 +1,11 @@
 //! Marks of bones, remembered for each file: which bones are muted, soloed, locked and pinned, and towards which bone elbows
-//! bend; selection sets; the frame rate and the unit of length that were chosen for the file; its reference picture and its sound. They are stored with the program's settings and never in the model's file.
+//! bend; the things of a scene that are hidden and locked; selection sets; the frame rate and the unit of length that were chosen for the file; its reference picture and its sound. They are stored with the program's settings and never in the model's file.
 
 use super::keys::channel::BoneNames;
 use super::keys::{BoneFlag, BoneFlags};
 use super::reference::settings::{relative_to, resolved};
 use super::reference::{ReferenceSettings, ReferenceTrack};
+use super::scene::SceneMarks;
 use super::selection_sets::{SelectionSet, SelectionSets};
 use super::sound::{SoundSettings, SoundTrack};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
@@ -44,6 +45,12 @@ struct FileMarks {
     /// Its path is relative to the folder of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     sound: Option<SoundSettings>,
+    /// The hidden things of a scene.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    hidden_things: Vec<Box<str>>,
+    /// The locked things of a scene.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    locked_things: Vec<Box<str>>,
 }
 
 /// A selection set as it is stored.
@@ -95,6 +102,8 @@ struct Noted {
     reference: u64,
     /// Version of the sound.
     sound: u64,
+    /// Version of the marks of the things of a scene.
+    things: Option<u64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -145,6 +154,8 @@ pub(super) struct BoneMarks<'a> {
     pub(super) reference: &'a ReferenceTrack,
     /// The sound.
     pub(super) sound: &'a SoundTrack,
+    /// The things of a scene; `None` while a model is open.
+    pub(super) things: Option<SceneMarks<'a>>,
 }
 
 /// Marks that were found again for a model.
@@ -166,6 +177,10 @@ pub(super) struct RecalledMarks {
     pub(super) reference: Option<ReferenceSettings>,
     /// The sound.
     pub(super) sound: Option<SoundSettings>,
+    /// The hidden things of a scene.
+    pub(super) hidden_things: Vec<Box<str>>,
+    /// The locked things of a scene.
+    pub(super) locked_things: Vec<Box<str>>,
 }
 
 impl Marks {
@@ -177,11 +192,17 @@ impl Marks {
     /// Notes the marks of the model that is open, if they changed.
     pub(super) fn note(&mut self, view: &View, now: BoneMarks<'_>) {
         let same = |noted: &Noted| {
-            let versions = (noted.version, noted.sets, noted.reference, noted.sound);
+            let versions = (noted.version, noted.sets, noted.reference, noted.sound, noted.things);
             (&noted.path, versions, &noted.pins[..], noted.pole, (noted.frame_rate, noted.meters_per_unit))
                 == (
                     &view.file.path,
-                    (now.flags.version(), now.sets.version(), now.reference.version(), now.sound.version()),
+                    (
+                        now.flags.version(),
+                        now.sets.version(),
+                        now.reference.version(),
+                        now.sound.version(),
+                        now.things.map(|things| things.version),
+                    ),
                     now.pins,
                     now.pole,
                     (now.frame_rate, now.meters_per_unit),
@@ -238,6 +259,8 @@ impl Marks {
                 let file = found_again(view, &stored.file);
                 SoundSettings { file, ..stored }
             }),
+            hidden_things: marks.hidden_things.clone(),
+            locked_things: marks.locked_things.clone(),
         })
     }
 
@@ -249,7 +272,8 @@ impl Marks {
 
 impl Noted {
     fn of(view: &View, now: BoneMarks<'_>) -> Self {
-        let BoneMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } = now;
+        let BoneMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound, things } =
+            now;
         let (reference, sound) = (reference.version(), sound.version());
         let path = view.file.path.clone();
         let sets = sets.version();
@@ -263,6 +287,7 @@ impl Noted {
             sets,
             reference,
             sound,
+            things: things.map(|things| things.version),
         }
     }
 }
@@ -281,7 +306,8 @@ fn found_again(view: &View, stored: &Path) -> PathBuf {
 impl FileMarks {
     /// Returns the marks of a model as they are stored.
     fn of(path: String, folder: Option<&Path>, skeleton: &Skeleton, now: BoneMarks<'_>) -> Self {
-        let BoneMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } = now;
+        let BoneMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound, things } =
+            now;
         let stored = |file: &Path| folder.map_or_else(|| file.to_owned(), |folder| relative_to(folder, file));
         let reference = reference.settings().is_chosen().then(|| {
             let settings = reference.settings();
@@ -310,6 +336,8 @@ impl FileMarks {
             sets: sets.list().iter().map(set).collect(),
             reference,
             sound,
+            hidden_things: things.map_or(Vec::new(), |things| things.hidden.iter().cloned().collect()),
+            locked_things: things.map_or(Vec::new(), |things| things.locked.iter().cloned().collect()),
         }
     }
 }

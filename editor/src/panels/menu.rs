@@ -396,6 +396,7 @@ pub(super) fn look_through(ui: &mut Ui, context: &PanelContext<'_>, requests: &m
     }
     ui.separator();
     item(ui, context, Id::AttachCamera, context.is_camera_attached, requests);
+    item(ui, context, Id::ToggleAround, context.settings.look.around, requests);
     item(ui, context, Id::ToggleSecondView, context.settings.look.second_view, requests);
     item(ui, context, Id::ToggleImageGuides, context.settings.look.image_guides, requests);
 }

@@ -49,6 +49,8 @@ pub struct LookSettings {
     pub image_guides: bool,
     /// Whether the scene is also seen through the camera of the shot, next to the viewport.
     pub second_view: bool,
+    /// Whether the scene is shown around a model that is edited in it.
+    pub around: bool,
 }
 
 impl Default for LookSettings {
@@ -66,6 +68,7 @@ impl Default for LookSettings {
             helpers: true,
             image_guides: true,
             second_view: false,
+            around: true,
         }
     }
 }

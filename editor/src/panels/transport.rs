@@ -27,9 +27,15 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
         let scope = edit_scope_menu::title_in(context, ui.available_width());
         let room = Room::of(ui.available_width() - edit_scope_menu::width(ui, scope));
         ui.add_enabled_ui(able, |ui| buttons(ui, context, requests));
-        if room >= Room::Keying && context.scene().is_none() {
+        if room >= Room::Keying {
             divider(ui);
-            keying(ui, context, scope, requests);
+            match context.scene() {
+                // Where things of a scene are moved to, from the playhead on.
+                Some(_) => {
+                    command_button(ui, Icon::AutoKey, Id::AutoKey, context.settings.auto_key, requests);
+                }
+                None => keying(ui, context, scope, requests),
+            }
         }
         if room >= Room::Repeat {
             divider(ui);
@@ -137,8 +143,10 @@ fn speed(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
 }
 
 fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let rate = context.frame_rate;
-    let text = format!("{rate} fps");
+    let own = context.frames_per_second();
+    let rate = own.round() as u32;
+    // Such as 23.976 frames in a scene.
+    let text = format!("{} fps", (own * 1000.0).round() / 1000.0);
     let response = quiet_button(ui, Icon::Down, false, &text, &text);
     let response = response.on_hover_text("Frame rate of this document: display, stepping and baking");
     let menu = egui::Popup::menu(&response).close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);

@@ -21,7 +21,7 @@ use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
-use super::scene::{LeftScene, SceneEditing, SceneProbe, SceneViewport};
+use super::scene::{EnteredThing, LeftScene, SceneEditing, SceneProbe, SceneViewport};
 use super::selected_bones::SelectedBones;
 use super::selection_sets::SelectionSets;
 use super::selection_steps::{SelectionState, SelectionSteps};
@@ -36,6 +36,7 @@ use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::BonePose;
+use dragonfly_picture::SceneAround;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -100,6 +101,10 @@ pub(super) struct Workspace {
     pub(super) probe: SceneProbe,
     /// The state of the scene that was left last.
     pub(super) left_scene: Option<LeftScene>,
+    /// The thing whose model is about to be opened in the scene.
+    pub(super) entered: Option<EnteredThing>,
+    /// The scene around the model that is edited in it.
+    pub(super) around: Option<Arc<SceneAround>>,
     /// The pose library.
     pub(super) poses: PoseLibrary,
     /// The reference picture.
@@ -152,6 +157,8 @@ impl Workspace {
             stage: SceneViewport::default(),
             probe: SceneProbe::default(),
             left_scene: None,
+            entered: None,
+            around: None,
             poses: PoseLibrary::default(),
             reference: ReferenceTrack::default(),
             sound: SoundTrack::default(),
@@ -196,6 +203,7 @@ impl Workspace {
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),
             second_view: self.camera.second(),
+            around: self.around.as_ref().filter(|_| self.settings.look.around),
             tools: &self.tools,
             dragging: &self.dragging,
             settings: &self.settings,

@@ -131,16 +131,35 @@ fn a_start_is_not_trimmed_where_the_rest_would_move() {
             .1
             .unwrap_or_else(|no| no.to_string())
     };
-    let wanted = "It plays more than once: trim its end, or let it play once";
-    assert_eq!(refusal(r#"<play id="x" who="anna" take="Walk" repeat="fill" dur="9"/>"#), wanted);
     assert_eq!(
         refusal(r#"<move id="x" who="anna" path="aisle" take="Walk" repeat="fill" dur="9"/>"#),
-        wanted
+        "It repeats: trim its end, or move it"
     );
     assert_eq!(
         refusal(r#"<sound id="x" src="a.ogg"/>"#),
         "A sound plays from its start: move it, or trim its end"
     );
+}
+
+#[test]
+fn a_trimmed_start_of_a_clip_that_repeats_leaves_its_end_and_begins_with_the_start_of_the_take() {
+    for clip in [
+        r#"<play id="x" who="anna" take="Walk" repeat="3"/>"#,
+        r#"<play id="x" who="anna" take="Walk" repeat="2.5" speed="-1"/>"#,
+        r#"<play id="x" who="anna" take="Walk" repeat="fill" dur="9"/>"#,
+        r#"<play id="x" who="anna" take="Walk" repeat="4" from="0.1" to="0.6" dur="1.5"/>"#,
+        r#"<play id="x" who="anna" take="Walk" repeat="fill" end="3"/>"#,
+    ] {
+        let (old, new) = gesture(clip, |scene| trim_start(scene, called(scene, "x"), seconds(0.25)));
+        let new = new.expect("a text");
+        let ([_, old_end], [begin, end]) = (times(&old, "x"), times(&new, "x"));
+        assert!(begin == 0.25 && (end - old_end).abs() <= 1e-4, "{begin} to {end}, not {old_end}: {new}");
+        // It begins as it did.
+        let part = |text: &str, name: &str| text.contains(name);
+        assert_eq!(part(&new, "from="), part(&old, "from="), "{new}");
+        let (same, new) = gesture(clip, |scene| trim_start(scene, called(scene, "x"), seconds(0.0)));
+        assert_eq!(new.expect("a text"), same);
+    }
 }
 
 #[test]

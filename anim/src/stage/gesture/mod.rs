@@ -20,6 +20,7 @@
 //! | [`set_fade`], [`set_speed`], [`set_repeat`] | the attribute; removed where it is the default |
 //! | [`delete_clip`], [`duplicate_clip`] | one element |
 //! | [`move_clips`], [`delete_clips`] | the same for several actions |
+//! | [`delete_things`] | the elements of things and of the actions that name them |
 //! | [`move_to_lane`] | `who` and `begin`, and the place in the text |
 //! | [`copied_clips`], [`paste_clips`] | new elements, one for each that was copied |
 //! | [`cut_to`], [`add_clip`], [`follow_path`], [`attach_thing`], [`detach_splices`], [`key_place_splices`] | one new element |
@@ -50,6 +51,7 @@ mod places;
 mod removal;
 mod scene;
 mod several;
+mod thing_removal;
 mod trim;
 
 pub use angles::{facing_and_tilt, turn_about_axes};
@@ -68,4 +70,5 @@ pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene, in_scene_texts, in_this_text};
 pub use several::{delete_clips, move_clips};
+pub use thing_removal::delete_things;
 pub use trim::{trim_end, trim_start};

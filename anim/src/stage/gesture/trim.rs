@@ -13,13 +13,13 @@ const NEAR_END: StageTime = StageTime::from_ticks(TICKS_PER_SECOND / 10_000);
 
 /// Moves the start of an action to `to`, with its end where it is.
 ///
-/// A take loses its start, or gets more of it; one that plays backwards loses its end. It mixes with the clip before it for as long as they
-/// overlap. What plays more than
-/// once has no single start to trim, and a sound without an end plays from its own start.
+/// A take loses its start, or gets more of it; one that plays backwards loses its end. One that plays more than once begins with its start at
+/// the new time, and plays less or more often. It mixes with the clip before it for as long as they overlap.
 ///
 /// # Errors
 ///
-/// There is no such action, it would have no length, the take has nothing before its start, it repeats, or it is such a sound.
+/// There is no such action, it would have no length, the take has nothing before its start, it repeats and is no play, or it is a sound without
+/// an end, which plays from its own start.
 pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Result<String, GestureRefusal> {
     let element = scene.element(action)?;
     let (own, times) = (&scene.script.actions()[action], scene.times(action));
@@ -28,8 +28,8 @@ pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Res
         return refused(NO_LENGTH);
     }
     let is_play = element.row.name == "play";
-    if own.repeat == StageRepeat::Fill || (is_play && own.repeat != StageRepeat::Times(Decimal::ONE)) {
-        return refused("It plays more than once: trim its end, or let it play once");
+    if !is_play && own.repeat == StageRepeat::Fill {
+        return refused("It repeats: trim its end, or move it");
     }
     if element.row.name == "sound" && own.dur.is_none() && own.end.is_none() {
         return refused("A sound plays from its start: move it, or trim its end");
@@ -41,7 +41,9 @@ pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Res
         let rest = (dur - by).max(StageTime::ZERO);
         changes.push((own.element, "dur", Some(text(scene, element, "dur", rest))));
     }
-    if is_play {
+    if is_play && own.repeat != StageRepeat::Times(Decimal::ONE) {
+        changes.extend(fewer_repetitions(scene, action, by));
+    } else if is_play {
         changes.push(trimmed_take(scene, action, by)?);
     } else if own.dur.is_none() && own.end.is_none() && !own.passive && own.children.is_empty() {
         // An action whose duration is that of its way would end later.
@@ -52,6 +54,21 @@ pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Res
     }
     let draft = ScriptDraft::of(scene.script).with(&changes)?;
     mixed(scene, draft, &ActionOrigins::same(scene))?.finish()
+}
+
+/// Returns the change by which what begins `by` later repeats as much less often that its end stays; `None` where that stays anyway.
+fn fewer_repetitions(
+    scene: &GestureScene<'_>,
+    action: usize,
+    by: StageTime,
+) -> Option<AttributeChange<'static>> {
+    let (own, times) = (&scene.script.actions()[action], scene.times(action));
+    let has_end = own.repeat == StageRepeat::Fill || own.dur.is_some() || own.end.is_some() || own.passive;
+    if has_end || times.once <= StageTime::ZERO {
+        return None;
+    }
+    let (repetitions, _) = repeated(times.once, times.stop - times.begin - by);
+    Some((own.element, "repeat", (repetitions != "1").then_some(repetitions)))
 }
 
 /// Returns the change of the part of a take whose play begins `by` later.

@@ -18,7 +18,7 @@ pub enum AttachedComments {
 
 /// Deletes an element with everything in it.
 ///
-/// References to it stay, and are errors of the new script: see [`super::is_used`]. `None` where there is no such element,
+/// References to it stay, and are errors of the new script: see [`super::elements_that_name`]. `None` where there is no such element,
 /// and for the script itself.
 pub fn delete(tree: &ScriptTree, element: usize, comments: AttachedComments) -> Option<TextSplices> {
     Some(TextSplices::one(taken(tree, element, comments)?, ""))

@@ -26,7 +26,7 @@ pub use attribute::{remove_attribute, set_attribute};
 pub use element::{AttachedComments, delete, duplicate, move_to};
 pub use insert::{ElementPlace, NewElement, insert, insert_text, written_element};
 pub(in crate::stage) use names::named;
-pub use names::{RenameRefusal, is_used, rename, rename_references, unique_id};
+pub use names::{RenameRefusal, elements_that_name, rename, rename_references, unique_id};
 
 use super::script::SHARED;
 use std::ops::Range;

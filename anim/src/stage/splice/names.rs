@@ -27,13 +27,12 @@ fn unique(base: &str, is_taken: impl Fn(&str) -> bool) -> String {
     std::iter::once(base.clone()).chain(numbered).find(|name| !is_taken(name)).unwrap_or(base)
 }
 
-/// Returns whether a reference names the element called `id`. Those of included files count not: they have a cast of their own.
-pub fn is_used(tree: &ScriptTree, id: &str) -> bool {
-    tree.elements()
-        .iter()
-        .filter(|element| !element.is_included())
-        .flat_map(|element| &element.attributes)
-        .any(|attribute| named(attribute) == Some(id))
+/// Returns the elements that name the one called `id`, by their positions. Those of included files are left out: they have a cast of their own.
+pub fn elements_that_name<'a>(tree: &'a ScriptTree, id: &'a str) -> impl Iterator<Item = usize> + 'a {
+    let names = move |element: &ScriptElement| {
+        !element.is_included() && element.attributes.iter().any(|attribute| named(attribute) == Some(id))
+    };
+    tree.elements().iter().enumerate().filter(move |(_, element)| names(element)).map(|(index, _)| index)
 }
 
 /// The reason why an element gets no other id.

@@ -37,6 +37,7 @@ script_labels! {
     ChangeSpeed = "Change speed",
     ChangeRepeat = "Change repeat",
     ChangeValue = "Change value",
+    ChangeFrameRate = "Change frame rate",
     AddClip = "Add clip",
     AddShot = "Add shot",
     AddRole = "Add role",

@@ -85,6 +85,8 @@ pub struct LineControl {
     pivot: DVec3,
     /// The place on a surface under the pointer, scene space.
     hit: Option<DVec3>,
+    /// Height of the ground, meters.
+    ground: f64,
     phase: LinePhase,
     answer: Option<LineAnswer>,
 }
@@ -122,6 +124,11 @@ impl LineControl {
     /// Sets the place through which the plane of lines in the view goes, scene space.
     pub fn set_pivot(&mut self, pivot: DVec3) {
         self.pivot = pivot;
+    }
+
+    /// Sets the height of the ground, meters.
+    pub fn set_ground(&mut self, ground: f64) {
+        self.ground = ground;
     }
 
     /// Sets the place on a surface under the pointer, scene space. Lines in the view, and lines that leave a surface, continue at its depth.
@@ -178,7 +185,12 @@ impl LineControl {
     }
 
     fn plane(&self) -> Option<DrawingPlane> {
-        Some(DrawingPlane { view: self.view?, surface: self.surface(), pivot: self.pivot })
+        Some(DrawingPlane {
+            view: self.view?,
+            surface: self.surface(),
+            pivot: self.pivot,
+            ground: self.ground,
+        })
     }
 
     fn place_at(&self, at: Vec2) -> Option<DVec3> {

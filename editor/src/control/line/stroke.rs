@@ -13,7 +13,7 @@ const LEAST_SLOPE: f64 = 0.01;
 /// Where lines are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LineSurface {
-    /// On the ground, at height 0.
+    /// On the ground.
     #[default]
     Ground,
     /// In a plane that faces the viewer, at the depth of what is under the pointer when the button is pressed.
@@ -52,6 +52,8 @@ pub(super) struct DrawingPlane {
     pub(super) view: GizmoView,
     pub(super) surface: LineSurface,
     pub(super) pivot: DVec3,
+    /// Height of the ground, meters.
+    pub(super) ground: f64,
 }
 
 impl DrawingPlane {
@@ -59,7 +61,7 @@ impl DrawingPlane {
     pub(super) fn place_at(&self, at: DVec2) -> Option<DVec3> {
         let (origin, direction) = self.view.ray(at);
         let (through, normal) = match self.surface {
-            LineSurface::Ground => (DVec3::ZERO, DVec3::Y),
+            LineSurface::Ground => (DVec3::Y * self.ground, DVec3::Y),
             // A line that leaves a surface continues at the depth where it left it.
             LineSurface::View | LineSurface::Surface | LineSurface::Bone => (self.pivot, self.view.back),
         };
@@ -67,7 +69,7 @@ impl DrawingPlane {
         let along = (through - origin).dot(normal) / slope;
         let place = origin + direction * along;
         let place = match self.surface {
-            LineSurface::Ground => place.with_y(0.0),
+            LineSurface::Ground => place.with_y(self.ground),
             LineSurface::View | LineSurface::Surface | LineSurface::Bone => place,
         };
         (slope.abs() > LEAST_SLOPE && along > 0.0 && place.is_finite()).then_some(place)

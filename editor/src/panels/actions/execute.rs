@@ -3,8 +3,8 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 use super::{
-    bones, clipboard, drags, dropped, files, framing, keys, layers, locks, look, playback, scene, scope,
-    sets, takes,
+    bones, clipboard, drags, dropped, files, framing, keys, layers, locks, look, playback, scene, scene_time,
+    scope, sets, takes,
 };
 use crate::panels::commands;
 use crate::panels::file_choice::FileChoice;
@@ -66,6 +66,9 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Seek(time) => playback::seek(workspace, time),
         Request::Speed(speed) => playback::set_speed(workspace, speed),
         Request::Repeat(repeat) => playback::set_repeat(workspace, repeat),
+        Request::FrameRate(rate) if workspace.read().scene().is_some() => {
+            return scene_time::set_rate(workspace, rate);
+        }
         Request::FrameRate(rate) => workspace.frame_rate.choose(rate),
         Request::LengthUnit(meters) => workspace.unit.choose(meters),
         Request::Scale(scale) => look::set_scale(workspace, scale),

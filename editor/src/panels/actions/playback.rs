@@ -1,5 +1,6 @@
 //! Playback: which time of which take is shown.
 
+use super::scene_time;
 use crate::panels::change_summary;
 use crate::panels::ruler;
 use crate::panels::settings::SPEEDS;
@@ -109,6 +110,9 @@ pub(in crate::panels) fn stop_at(workspace: &mut Workspace, time: f32) {
 
 /// Scrolls the timeline to the playhead if it is paused and out of sight.
 fn bring_into_sight(workspace: &mut Workspace) {
+    if workspace.read().scene().is_some() {
+        return scene_time::bring_into_sight(workspace);
+    }
     if let Some(take) = workspace.read().shared_take().cloned().filter(|_| !workspace.player.is_playing()) {
         workspace.keys.bring_into_sight(&take, workspace.player.time());
     }

@@ -1,7 +1,7 @@
 //! Scenes: selection, the newest text, things of the cast.
 
 use super::scene_text::{add, change_project, change_text};
-use super::{playback, scene_camera, scene_lines, scene_view};
+use super::{playback, scene_around, scene_camera, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::scene::{NewThing, SceneRequest};
@@ -126,6 +126,7 @@ pub(in crate::panels) fn edit_model(workspace: &mut Workspace, thing: &str) -> O
         workspace.say(MessageSeverity::Info, text);
         return None;
     };
+    scene_around::enter(workspace, thing);
     Some(Effect::File(FileAction::Send(DocumentMessage::EditModel(model))))
 }
 
@@ -170,4 +171,40 @@ pub(super) fn follow(workspace: &mut Workspace, answered: u64) {
         workspace.player.show(Some(0), Some(bounds));
         playback::seek(workspace, time);
     }
+}
+
+/// Hides the selected things, or all others.
+pub(in crate::panels) fn hide(workspace: &mut Workspace, others: bool) {
+    let hidden = match others {
+        false => workspace.scene.things().to_vec(),
+        true => {
+            let all = things(workspace);
+            all.into_iter().filter(|id| !workspace.scene.is_selected(id)).collect()
+        }
+    };
+    workspace.scene.hide(hidden, true);
+}
+
+/// Shows all hidden things, and selects them.
+pub(in crate::panels) fn show_all(workspace: &mut Workspace) {
+    let hidden: Vec<Box<str>> = workspace.scene.hidden().map(Box::from).collect();
+    if hidden.is_empty() {
+        return workspace.say(MessageSeverity::Info, "Nothing is hidden");
+    }
+    workspace.scene.hide(hidden.clone(), false);
+    workspace.scene.select_things(&hidden, Choice::Replace);
+}
+
+/// Locks the selected things; if all of them are locked, unlocks them.
+pub(in crate::panels) fn toggle_lock(workspace: &mut Workspace) {
+    let things = workspace.scene.things().to_vec();
+    let lock = !things.iter().all(|id| workspace.scene.is_locked(id));
+    workspace.scene.lock(things, lock);
+}
+
+/// Returns the ids of all things of the scene.
+fn things(workspace: &Workspace) -> Vec<Box<str>> {
+    let script = workspace.model.view().and_then(|view| view.scene.as_ref()?.script.clone());
+    let ids = script.iter().flat_map(|script| script.things().filter_map(|thing| thing.value("id")));
+    ids.map(Box::from).collect()
 }

@@ -4,16 +4,15 @@ use super::playback;
 use super::scene_text::{gesture, step as step_of_texts};
 use crate::panels::request::Effect;
 use crate::panels::scene::shots::shots_of;
-use crate::panels::scene::{SceneBase, ScriptChange, move_label};
+use crate::panels::scene::{SceneBase, move_label};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clips, delete_thing, duplicate_clips,
+    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clips, delete_things, duplicate_clips,
     duplicate_thing, in_scene_texts, move_clips, spliced_script, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::script::{ElementOrigin, StageScript};
-use dragonfly_anim::stage::splice::{TextSplices, is_used};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::script_that_names;
@@ -91,11 +90,17 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
         return gesture(workspace, ScriptLabel::Duplicate, |base| duplicate_clips(&base.scene(), &actions));
     }
     let things = workspace.scene.things().to_vec();
-    step_of_texts(workspace, |base| {
-        each_thing(base, ScriptLabel::Duplicate, &things, |script, element| {
-            Ok(duplicate_thing(script, element))
-        })
-    })
+    let mut copies = Vec::new();
+    let effect = step_of_texts(workspace, |base| {
+        let (script, ids) = duplicated(base, &things)?;
+        copies = ids;
+        Ok(base.change(&script, ScriptLabel::Duplicate, None))
+    });
+    if effect.is_some() {
+        // The copies lie on the originals: what is dragged next is a copy.
+        workspace.scene.await_things(copies);
+    }
+    effect
 }
 
 /// Deletes the selected action, or the selected things. With `lift` what follows an action stays where it is.
@@ -114,43 +119,52 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         return None;
     }
     let scene = workspace.model.view()?.scene.clone()?;
-    step_of_texts(workspace, |base| {
-        each_thing(base, ScriptLabel::Delete, &things, |script, element| {
-            let own = &script.tree().elements()[element];
-            let id = own.value("id").unwrap_or_default();
-            if is_used(script.tree(), id) {
-                return Err(GestureRefusal(format!("Actions of the script name {id}: delete those first")));
-            }
-            let other = match own.origin {
+    let mut actions = 0;
+    let effect = step_of_texts(workspace, |base| {
+        let mut ids: Vec<&str> = Vec::new();
+        for id in &things {
+            let Some(element) = base.script.thing_element(id) else { continue };
+            let other = match base.script.tree().elements()[element].origin {
                 ElementOrigin::Project => script_that_names(&scene, id).map_err(GestureRefusal)?,
                 ElementOrigin::Text | ElementOrigin::Included(_) => None,
             };
             if let Some(other) = other {
                 return Err(GestureRefusal(format!("{other} names {id}: change that first")));
             }
-            Ok(delete_thing(script, element))
-        })
-    })
+            ids.push(id);
+        }
+        let (script, deleted) = delete_things(&base.scene(), &ids)?;
+        actions = deleted;
+        Ok(base.change(&script, ScriptLabel::Delete, None))
+    });
+    if effect.is_some() && actions > 0 {
+        let what = if actions == 1 {
+            "1 action that names".to_owned()
+        } else {
+            format!("{actions} actions that name")
+        };
+        let text = format!("Deleted {} with {what} it", things.join(", "));
+        workspace.say(MessageSeverity::Info, text);
+    }
+    effect
 }
 
-/// Changes the texts for each thing in turn.
-fn each_thing(
-    base: &SceneBase,
-    label: ScriptLabel,
-    things: &[Box<str>],
-    change: impl Fn(&StageScript, usize) -> Result<Option<TextSplices>, GestureRefusal>,
-) -> Result<ScriptChange, GestureRefusal> {
+/// Returns the script with copies of things, and the ids of the copies.
+fn duplicated(base: &SceneBase, things: &[Box<str>]) -> Result<(StageScript, Vec<Box<str>>), GestureRefusal> {
     for element in things.iter().filter_map(|thing| base.script.thing_element(thing)) {
         in_scene_texts(base.script.tree(), element)?;
     }
     let mut script = StageScript::clone(&base.script);
     for thing in things {
-        let Some(element) = script.thing_element(thing) else { continue };
-        if let Some(splices) = change(&script, element)? {
+        let element = script.thing_element(thing);
+        if let Some(splices) = element.and_then(|element| duplicate_thing(&script, element)) {
             script = spliced_script(&script, &splices)?;
         }
     }
-    Ok(base.change(&script, label, None))
+    let is_new = |id: &&str| base.script.thing_called(id).is_none();
+    let copies =
+        script.things().filter_map(|thing| thing.value("id")).filter(is_new).map(Box::from).collect();
+    Ok((script, copies))
 }
 
 /// Inserts a shot of the camera after the one that is seen at the playhead.

@@ -11,7 +11,7 @@ use crate::panels::scene::{LineEraser, LineRequest, NewThing, begin_text, line_n
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
-use dragonfly_anim::stage::line::{DrawnLines, NewLine, path_points, points_text};
+use dragonfly_anim::stage::line::{DrawnLine, DrawnLines, NewLine, path_points, points_text};
 use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::table::element;
 use dragonfly_anim::stage::time::StageTime;
@@ -130,19 +130,32 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
     };
     let from = workspace.read().scene_time();
     let script = scene.script.as_ref().filter(|_| workspace.settings.tools.lines_from_playhead);
-    if let Some(script) = script.filter(|_| from > StageTime::ZERO) {
-        attributes.push(("from".to_owned(), begin_text(from, script.rate())));
-    }
+    let begin = script.filter(|_| from > StageTime::ZERO).map(|script| begin_text(from, script.rate()));
+    attributes.extend(begin.iter().map(|begin| ("from".to_owned(), begin.clone())));
     let line = NewLine { id: Some(id.clone()), points, attributes };
-    let effect = edit_lines(workspace, &scene, ScriptLabel::DrawLine, |lines| lines.added(&line));
+    let effect = edit_lines(workspace, &scene, ScriptLabel::DrawLine, |lines| {
+        // Notes of earlier times are shown up to this one.
+        let is_before = |line: &DrawnLine| {
+            begin.is_some() && line.shown[1].is_none() && line.shown[0].is_some_and(|start| start < from)
+        };
+        let before = lines.list().iter().enumerate().filter(|(_, line)| is_before(line));
+        let ended = before.map(|(at, _)| lines.set(at, "to", begin.as_deref()));
+        TextSplices::joined(ended.chain([lines.added(&line)]).collect::<Option<Vec<_>>>()?)
+    });
     if effect.is_some() {
         workspace.scene.lines_mut().select(Some(id.into()));
     }
     effect
 }
 
-/// Notes what is under the pointer, for lines that follow it: when a button is pressed, and while a line on a surface is drawn.
+/// Notes what is under the pointer, for lines that follow it: when a button is pressed, and while a line on a surface is drawn. For all
+/// lines, notes how high the ground is when a button is pressed.
 pub(super) fn follow_surface(workspace: &mut Workspace, event: InputEvent) {
+    let line = workspace.tools.controls().line();
+    if line.use_of().is_some() && !line.is_drawing() && event == InputEvent::MouseDown(Button::Left) {
+        let ground = workspace.read().scene().map_or(0.0, SceneView::ground);
+        workspace.tools.controls_mut().line_mut().set_ground(ground);
+    }
     let line = workspace.tools.controls().line();
     if line.use_of() != Some(LineUse::Note) || line.note_surface() == LineSurface::Ground {
         return;
@@ -334,12 +347,17 @@ pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect>
 /// Makes a project of the script that is open.
 pub(in crate::panels) fn project_from_scene(workspace: &mut Workspace) -> Option<Effect> {
     let is_project = workspace.read().scene().is_some_and(|scene| scene.project.is_some());
-    let path = workspace.model.view().and_then(|view| view.file.path.clone());
+    // The models that it lists are those of the file.
+    let saved = workspace.model.view().filter(|view| view.history.saved);
+    let path = saved.and_then(|view| view.file.path.clone());
     match path.filter(|_| !is_project) {
         Some(path) => Some(Effect::NewProject(path)),
         None => {
-            let text =
-                if is_project { "The scene belongs to a project already" } else { "Save the scene first" };
+            let text = if is_project {
+                "The scene belongs to a project already"
+            } else {
+                "Save the scene first: the project is made of its file"
+            };
             workspace.say(MessageSeverity::Info, text);
             None
         }

@@ -157,14 +157,18 @@ impl BaseMoment<'_> {
             let element = script.element(action);
             element.row.name == "move"
                 && element.value("who") == Some(id)
-                && element.value("path").is_some()
                 && plan.schedule().times().get(action).is_some_and(|times| times.begin <= self.time)
         });
-        if let Some(path) = follows.and_then(|action| script.element(action).value("path")) {
+        if let Some(action) = follows.map(|action| script.element(action)) {
+            let way = match (action.value("path"), action.value("to")) {
+                (Some(path), _) => format!("the path {path}"),
+                (None, to) => format!("its way to {}", to.unwrap_or_default()),
+            };
+            let target = if action.value("path").is_some() { "the path" } else { "where it goes" };
             let text = match plan.motion_in_progress(thing, self.time) {
-                Some(_) => format!("{id} follows the path {path} at this time: move the path"),
+                Some(_) => format!("{id} follows {way} at this time: move {target}"),
                 None => format!(
-                    "{id} is where the path {path} has led it: move the path, or switch Auto-key on to put it elsewhere from here on"
+                    "{id} is where {way} has led it: move {target}, or switch Auto-key on to put it elsewhere from here on"
                 ),
             };
             return Err(GestureRefusal(text));

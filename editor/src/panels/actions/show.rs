@@ -2,7 +2,8 @@
 
 use super::reopened::BeforeReload;
 use super::{
-    drags, framing, keys, layers, left_scene, playback, scene, scene_camera, scene_lines, scope, tools, undo,
+    drags, framing, keys, layers, left_scene, playback, scene, scene_around, scene_camera, scene_lines,
+    scope, tools, undo,
 };
 use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
@@ -74,6 +75,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
             Some(left) if left_scene::is_shown(&left, workspace) => left_scene::restore(left, workspace),
             left => workspace.left_scene = left,
         }
+        scene_around::entered(workspace);
         return;
     }
     let before = workspace.model.replace(view);
@@ -168,6 +170,7 @@ fn marks(workspace: &Workspace) -> BoneMarks<'_> {
         sets: &workspace.sets,
         reference: &workspace.reference,
         sound: &workspace.sound,
+        things: workspace.read().scene().is_some().then(|| workspace.scene.marks()),
     }
 }
 
@@ -185,8 +188,20 @@ fn recall_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     let recalled = workspace.model.view().and_then(|view| remembered.recall(view));
     if let Some(recalled) = recalled {
-        let RecalledMarks { flags, pins, pole, frame_rate, meters_per_unit, sets, reference, sound } =
-            recalled;
+        let RecalledMarks {
+            flags,
+            pins,
+            pole,
+            frame_rate,
+            meters_per_unit,
+            sets,
+            reference,
+            sound,
+            hidden_things,
+            locked_things,
+        } = recalled;
+        workspace.scene.hide(hidden_things, true);
+        workspace.scene.lock(locked_things, true);
         for (flag, bone) in flags {
             workspace.keys.set_flag(flag, bone, true);
         }

@@ -44,9 +44,9 @@ use dragonfly_document::edit::BonePose;
 use dragonfly_document::history::Gesture;
 use dragonfly_document::posing::IkMode;
 use dragonfly_document::{LoadedModel, View};
-use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
+use dragonfly_picture::{SceneAround, ThroughCamera};
 use egui::{Pos2, Rect};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -115,6 +115,8 @@ pub struct PanelContext<'a> {
     pub viewport: Rect,
     /// The rectangle of the second view of a scene, points; `None` without one.
     pub second_view: Option<egui::Rect>,
+    /// The scene around the model that is edited in it, where it is shown.
+    pub around: Option<&'a Arc<SceneAround>>,
     /// The tools of the viewport, their drag, motion path and IK.
     pub tools: &'a ToolState,
     /// The drag in progress, whichever panel it belongs to.

@@ -40,7 +40,10 @@ impl<'a> PanelContext<'a> {
     /// playhead could be before it.
     pub fn playhead_at(&self, time: StageTime) -> f32 {
         let nearest = time.seconds() as f32;
-        if self.scene_time_at(nearest) < time { nearest.next_up() } else { nearest }
+        // What is a little before it may count as the frame or the millisecond before it.
+        let after = (time.seconds() + 2.0 * f64::from(f32::EPSILON) * time.seconds().max(1.0)) as f32;
+        let has_come = |at: &f32| self.scene_time_at(*at) >= time;
+        [nearest, nearest.next_up()].into_iter().find(has_come).unwrap_or(after)
     }
 
     fn scene_time_at(&self, playhead: f32) -> StageTime {

@@ -19,6 +19,17 @@ use dragonfly_document::{Change, SceneView};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+/// The things of a scene that are hidden and locked.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::panels) struct SceneMarks<'a> {
+    /// The ids of the hidden things.
+    pub(in crate::panels) hidden: &'a BTreeSet<Box<str>>,
+    /// The ids of the locked things.
+    pub(in crate::panels) locked: &'a BTreeSet<Box<str>>,
+    /// Number of changes of them.
+    pub(in crate::panels) version: u64,
+}
+
 /// The state of the editor of scenes; it contains nothing of the document.
 #[derive(Clone, Debug)]
 pub struct SceneEditing {
@@ -27,6 +38,8 @@ pub struct SceneEditing {
     actions: ActionSelection,
     hidden: BTreeSet<Box<str>>,
     locked: BTreeSet<Box<str>>,
+    /// Number of changes of what is hidden and locked.
+    marks: u64,
     renaming: Option<Box<str>>,
     /// The things that are selected as soon as the script has them.
     awaited: Vec<Box<str>>,
@@ -52,6 +65,7 @@ impl Default for SceneEditing {
             actions: ActionSelection::default(),
             hidden: BTreeSet::new(),
             locked: BTreeSet::new(),
+            marks: 0,
             renaming: None,
             awaited: Vec::new(),
             ripple: true,
@@ -224,11 +238,18 @@ impl SceneEditing {
         }
     }
 
+    /// Returns what is hidden and locked, as it is remembered for a file.
+    pub(in crate::panels) fn marks(&self) -> SceneMarks<'_> {
+        SceneMarks { hidden: &self.hidden, locked: &self.locked, version: self.marks }
+    }
+
     pub(in crate::panels) fn hide(&mut self, things: Vec<Box<str>>, hide: bool) {
+        self.marks += 1;
         set(&mut self.hidden, things, hide);
     }
 
     pub(in crate::panels) fn lock(&mut self, things: Vec<Box<str>>, lock: bool) {
+        self.marks += 1;
         set(&mut self.locked, things, lock);
     }
 

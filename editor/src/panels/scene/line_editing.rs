@@ -106,7 +106,11 @@ pub fn line_name(index: usize, line: &DrawnLine) -> Box<str> {
 
 /// Returns the position of the line with this name in its file.
 pub fn line_named(lines: &DrawnLines, name: &str) -> Option<usize> {
-    lines.list().iter().enumerate().position(|(index, line)| *line_name(index, line) == *name)
+    let is_called = |(index, line): (usize, &DrawnLine)| match &line.id {
+        Some(id) => **id == *name,
+        None => *line_name(index, line) == *name,
+    };
+    lines.list().iter().enumerate().position(is_called)
 }
 
 impl LineEditing {

@@ -5,6 +5,7 @@ use super::glass::glass;
 use crate::control::Catch;
 use crate::control::gizmo::GizmoReadout;
 use crate::panels::context::PanelContext;
+use crate::panels::scene::SceneBase;
 use crate::panels::theme::Theme;
 use dragonfly_picture::between;
 use dragonfly_picture::gizmo::{GizmoAxis, GizmoDelta, GizmoSpace, Handle, Tool};
@@ -44,6 +45,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
         };
         job.append(what, 0.0, words(theme.text));
         job.append("Shift adds, Ctrl toggles, Esc cancels", 10.0, words(theme.weak));
+    } else if context.tools.controls().gizmo().refuses() && context.scene().is_some() {
+        let Some(refusal) = scene_refusal(context) else { return };
+        job.append(&refusal, 0.0, words(theme.text));
     } else if context.tools.controls().gizmo().refuses() && !context.selection_is_locked() {
         job.append("The rest pose cannot be edited", 0.0, words(theme.text));
         job.append("show a take first", 6.0, words(theme.weak));
@@ -56,6 +60,16 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
         return;
     }
     beside_the_pointer(ui, rect, context, job);
+}
+
+/// Returns why the selected things of a scene cannot be moved.
+fn scene_refusal(context: &PanelContext<'_>) -> Option<String> {
+    let editing = context.scene_editing;
+    if let Some(locked) = editing.things().iter().find(|id| editing.is_locked(id)) {
+        return Some(format!("{locked} is locked"));
+    }
+    let scene = context.scene()?;
+    SceneBase::of(scene, editing.text(scene)).err().map(|refusal| refusal.to_string())
 }
 
 fn beside_the_pointer(ui: &Ui, rect: Rect, context: &PanelContext<'_>, job: LayoutJob) {

@@ -12,6 +12,7 @@ commands! {
     ToggleSkeleton => When::Always, "Skeleton", [key(NONE, Key::B)], "Shows or hides the bones", |w| { w.settings.look.skeleton ^= true; None };
     ToggleXRay => When::Always, "Bones in front (X-ray)", [key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None };
     ToggleHelpers => When::Always, "Helpers", [], "Shows or hides cameras, lights and marks of a scene", |w| { w.settings.look.helpers ^= true; None };
+    ToggleAround => When::Always, "Scene around the model", [], "Shows or hides the other things of the scene while one of its models is edited", |w| { w.settings.look.around ^= true; None };
     ToggleSecondView => When::Scene, "Second viewport", [], "Shows the scene through the camera of the shot, next to the viewport", |w| { w.settings.look.second_view ^= true; None };
     ToggleImageGuides => When::Always, "Thirds and safe areas", [], "Shows or hides thirds and safe areas while the viewport looks through a camera of a scene", |w| { w.settings.look.image_guides ^= true; None };
     ToggleSurface => When::Always, "Surface", [key(NONE, Key::M)], "Shows or hides the model's surface", |w| { w.settings.look.surface ^= true; None };

@@ -3,6 +3,7 @@
 use super::*;
 use crate::panels::actions::{
     scene, scene_attach, scene_clipboard, scene_clips, scene_focus, scene_ground, scene_lines, scene_text,
+    scene_time,
 };
 use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
@@ -22,6 +23,10 @@ commands! {
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking; cameras, props, lights and effects can follow it too", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected line of the project", scene_lines::delete;
     SceneRename => When::Thing, "Rename thing", [], "Renames the selected thing wherever the script names it", |w| { scene::rename(w); None };
+    HideThings => When::Thing, "Hide things", [], "Hides the selected things in the viewport; movies show them", |w| { scene::hide(w, false); None };
+    HideOtherThings => When::Thing, "Hide other things", [], "Hides all things except the selected ones", |w| { scene::hide(w, true); None };
+    ShowAllThings => When::Scene, "Show all things", [], "Shows and selects all hidden things", |w| { scene::show_all(w); None };
+    LockThings => When::Thing, "Lock things", [], "Locks or unlocks the selected things, so that they are not changed with the mouse", |w| { scene::toggle_lock(w); None };
     DropToGround => When::Thing, "Drop to the ground", [], "Moves the selected roles, props and marks up or down so that they stand on the ground", scene_ground::drop_selected;
     ToggleGroundSnap => When::Always, "Snap to the ground", [], "Keeps roles, props and marks on the ground while they are moved", |w| { scene_ground::toggle(w); None };
     AttachHere => When::Thing, "Attach to the bone under the pointer", [key(NONE, Key::J)], "Attaches the selected things to the bone or thing under the pointer, or to the one selected last, from the playhead on; they stay where they are. A model file dropped on a bone sits in its place instead", scene_attach::attach;
@@ -31,6 +36,8 @@ commands! {
     CutToCamera => When::Thing, "Cut to this camera here", [], "Inserts a shot of the selected camera at the playhead", scene_clips::cut_to_selected;
     PreviousShot => When::Scene, "Go to previous shot", [], "Moves the playhead to the start of the shot before it", |w| { scene_clips::go_to_shot(w, false); None };
     NextShot => When::Scene, "Go to next shot", [], "Moves the playhead to the start of the next shot", |w| { scene_clips::go_to_shot(w, true); None };
+    PreviousEdge => When::Scene, "Go to previous begin or end", [], "Moves the playhead to where an action of the selected things, or of all, begins or ends before it", |w| { scene_time::step_edge(w, false); None }, repeats;
+    NextEdge => When::Scene, "Go to next begin or end", [], "Moves the playhead to where an action of the selected things, or of all, begins or ends next", |w| { scene_time::step_edge(w, true); None }, repeats;
     ClipToPlayhead => When::Clip, "Move action to playhead", [], "Lets the first selected action begin at the playhead; the others move along", scene_clips::to_playhead;
     ClipEarlier => When::Clip, "Move action a frame earlier", [], "Moves the selected actions one frame back", |w| scene_clips::nudge(w, -1), repeats;
     ClipLater => When::Clip, "Move action a frame later", [], "Moves the selected actions one frame forward", |w| scene_clips::nudge(w, 1), repeats;
@@ -43,7 +50,7 @@ commands! {
     CopyActions => When::Clip, "Copy actions", [], "Copies the selected actions; Paste inserts them at the playhead, also for another role", scene_clipboard::copy;
     PasteActions => When::Scene, "Paste actions", [], "Pastes the copied actions at the playhead: for the selected role or prop, or, while an action is selected, for the things they were copied from", |_| Some(Effect::PastePose { mirrored: false });
     SceneDuplicate => When::SceneItem, "Duplicate action or thing", [], "Duplicates the selected actions after the last of them ends, or the selected thing", scene_clips::duplicate;
-    SceneDelete => When::SceneItem, "Delete action or things", [], "Deletes the selected actions, or the selected things; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
+    SceneDelete => When::SceneItem, "Delete action or things", [], "Deletes the selected actions, or the selected things with the actions that name them; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
     SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected actions; what follows stays where it is", |w| scene_clips::delete(w, true);
     ToggleSceneRipple => When::Always, "Ripple", [], "Lets what follows in a sequence move along with an action that is dragged; hold 2 for the other way", |w| { scene::toggle_ripple(w); None };
     EditSceneModel => When::Thing, "Edit takes and bones", [], "Opens the model of the selected thing, in place: its takes and bones", |w| { let thing = w.scene.things().last().cloned()?; scene::edit_model(w, &thing) };

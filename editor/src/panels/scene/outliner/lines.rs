@@ -6,7 +6,7 @@ use crate::panels::icons::Icon;
 use crate::panels::menu::submenu;
 use crate::panels::name_field::{NameField, NameFieldEnd};
 use crate::panels::request::Request;
-use crate::panels::scene::{LineRequest, SceneRequest, line_name};
+use crate::panels::scene::{LineRequest, SceneRequest, line_name, line_named};
 use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -43,12 +43,18 @@ impl LineRows {
             ui.add_space(3.0 * GRID);
             ui.label(RichText::new("Lines").small().color(Theme::of(ui).weak));
         });
+        let clip = ui.clip_rect();
         for (index, line) in lines.list().iter().enumerate() {
-            let name = line_name(index, line);
-            let Some((_, field)) = self.typed.as_mut().filter(|(of, _)| *of == name) else {
-                self.row(ui, context, (&name, line), requests);
+            let is_named = |of: &str| line_named(lines, of) == Some(index);
+            let Some((_, field)) = self.typed.as_mut().filter(|(of, _)| is_named(of)) else {
+                let top = ui.cursor().top();
+                match top + ROW < clip.top() || top > clip.bottom() {
+                    true => ui.add_space(ROW),
+                    false => self.row(ui, context, (&line_name(index, line), line), requests),
+                }
                 continue;
             };
+            let name = line_name(index, line);
             let rect = rename::row(ui);
             let end = field.show(ui, rect, "Name of the line", TextStyle::Body);
             let new = field.text().trim().to_owned();
@@ -106,8 +112,10 @@ impl LineRows {
         if response.clicked() || response.secondary_clicked() {
             send(requests, LineRequest::Select(Some(name.into())));
         }
-        let length = line.samples().length();
-        response.on_hover_text(format!("line {name}, {length:.2} m\nDouble-click: rename"));
+        response.on_hover_ui(|ui| {
+            let length = line.samples().length();
+            ui.label(format!("line {name}, {length:.2} m\nDouble-click: rename"));
+        });
     }
 
     fn menu(&mut self, ui: &mut Ui, name: &str, requests: &mut Vec<Request>) {

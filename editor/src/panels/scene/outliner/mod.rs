@@ -81,7 +81,8 @@ impl Panel for Outliner {
         let Some(script) = &scene.script else {
             return widgets::empty(ui, "The script has errors", "Correct it in the panel Script");
         };
-        if script.things().len() == 0 {
+        let has_lines = scene.lines.as_ref().is_some_and(|lines| !lines.list().is_empty());
+        if script.things().len() == 0 && !has_lines {
             return widgets::empty(ui, "The scene is empty", "Drop a model file here, or add a thing above");
         }
         if script.things().len() > SEARCHED {
@@ -90,12 +91,13 @@ impl Panel for Outliner {
             self.query.clear();
         }
         self.listed.update(script, self.query.trim());
-        if self.listed.things.is_empty() {
-            return widgets::empty(ui, "No thing matches the search", "");
-        }
         ui.spacing_mut().item_spacing.y = 0.0;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let listed = std::mem::take(&mut self.listed);
+            if listed.things.is_empty() && !listed.query.is_empty() {
+                ui.add_space(GRID);
+                ui.label(RichText::new("No thing matches the search").color(Theme::of(ui).weak));
+            }
             for group in listed.things.chunk_by(|one, other| one.0 == other.0) {
                 let kind = KINDS.get(group[0].0).map_or("", |(_, title)| title);
                 ui.add_space(GRID);

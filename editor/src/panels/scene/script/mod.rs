@@ -54,6 +54,8 @@ pub struct ScriptPanel {
     followed: Option<Range<usize>>,
     /// Byte to which the cursor moves in the next frame.
     jump: Option<usize>,
+    /// Height of the text in the last frame.
+    height: f32,
     /// The text that is shown.
     shown: ShownText,
 }
@@ -187,6 +189,9 @@ impl ScriptPanel {
             ShownText::Script => scene.errors.iter().collect(),
             ShownText::Project => scene.project_errors.iter().chain(&*scene.shared_errors).collect(),
         };
+        // The list of errors takes room from the text, and the cursor stays in sight.
+        let is_smaller = has_focus && ui.max_rect().height() < self.height;
+        self.height = ui.max_rect().height();
         let follows = selected.clone().filter(|range| self.followed.as_ref() != Some(range) && !has_focus);
         let area = ScrollArea::both().auto_shrink(false).id_salt("script");
         let output = area.show(ui, |ui| {
@@ -210,6 +215,10 @@ impl ScriptPanel {
                 margin::show(ui, &sheet);
                 if let Some(range) = &follows {
                     margin::scroll_to(ui, &sheet, range);
+                }
+                if let (true, Some(range)) = (is_smaller, output.cursor_range) {
+                    let at = byte_of(text, range.primary.index.0);
+                    margin::scroll_to(ui, &sheet, &(at..at));
                 }
                 output
             })

@@ -32,13 +32,17 @@ pub fn events_of(take: &Take) -> Vec<EventMark> {
     events.map(|event| EventMark { after: after(event.time), name: event.name }).collect()
 }
 
-/// A model, and the events of one of its takes.
-type KnownEvents = (Arc<LoadedModel>, Arc<[EventMark]>);
+/// A model, and the events of those of its takes that were drawn.
+#[derive(Debug)]
+struct KnownEvents {
+    model: Arc<LoadedModel>,
+    takes: BTreeMap<String, Arc<[EventMark]>>,
+}
 
-/// The events of the takes that were drawn, by model and take.
+/// The events of the takes that were drawn, by the text with which the script names the model.
 #[derive(Debug, Default)]
 pub(super) struct TakeMarks {
-    known: BTreeMap<(String, String), KnownEvents>,
+    known: BTreeMap<String, KnownEvents>,
 }
 
 impl TakeMarks {
@@ -72,14 +76,20 @@ impl TakeMarks {
     /// Returns the events of a take, read once for each model.
     fn events(&mut self, sheet: &SceneSheet<'_>, model: &str, take: &str) -> Arc<[EventMark]> {
         let Some(SceneModel::Loaded(loaded)) = sheet.scene.models.get(model) else { return Arc::default() };
-        let key = (model.to_owned(), take.to_owned());
-        if let Some((_, events)) = self.known.get(&key).filter(|(of, _)| Arc::ptr_eq(of, loaded)) {
+        let known = self.known.get(model).filter(|known| Arc::ptr_eq(&known.model, loaded));
+        if let Some(events) = known.and_then(|known| known.takes.get(take)) {
             return Arc::clone(events);
         }
         let takes = &loaded.model.animation.takes;
         let found = takes.iter().find(|own| own.name == take).map_or_else(Vec::new, |take| events_of(take));
         let events: Arc<[EventMark]> = found.into();
-        self.known.insert(key, (Arc::clone(loaded), Arc::clone(&events)));
+        if known.is_none() {
+            let new = KnownEvents { model: Arc::clone(loaded), takes: BTreeMap::new() };
+            self.known.insert(model.to_owned(), new);
+        }
+        if let Some(known) = self.known.get_mut(model) {
+            known.takes.insert(take.to_owned(), Arc::clone(&events));
+        }
         events
     }
 }
