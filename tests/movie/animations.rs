@@ -166,7 +166,7 @@ fn webp_frames(path: &Path) -> (Vec<Vec<u8>>, Vec<u32>) {
     let bytes = std::fs::read(path).unwrap();
     assert_eq!(u32::from_le_bytes(*bytes[4..].first_chunk().unwrap()) as usize, bytes.len() - 8);
     let mut decoder = image_webp::WebPDecoder::new(Cursor::new(bytes)).unwrap();
-    assert!(decoder.is_animated() && decoder.is_lossy() == false);
+    assert!(decoder.is_animated() && !decoder.is_lossy());
     let mut buffer = vec![0; decoder.output_buffer_size().unwrap()];
     let has_alpha = decoder.has_alpha();
     let (mut frames, mut delays) = (Vec::new(), Vec::new());

@@ -2,6 +2,7 @@
 
 use crate::frames::{disc, noise, rate, write, write_disc};
 use crate::judge::{ffmpeg, probe};
+use dragonfly_kit::counting::peak;
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mutate::Mutator;
 use dragonfly_kit::random::{Random, seed};
@@ -159,4 +160,27 @@ fn a_damaged_part_is_an_error_or_a_movie() {
         }
     }
     assert!(joined > 0, "seed {seed}");
+}
+
+#[test]
+fn a_part_whose_tables_claim_large_frames_is_refused_without_the_memory_for_them() {
+    let folder = Folder::new("join-large");
+    let all = parts(&folder, 2 * GROUP, GROUP, &settings());
+    let bytes = std::fs::read(&all[0]).unwrap();
+    let table = bytes.windows(4).position(|kind| kind == b"stsz").unwrap();
+    // The claimed size of the first frame, and of the file.
+    for (size, length, words) in [
+        (200 << 20, bytes.len() as u64, "the file ends before frame 0"),
+        (u32::MAX, bytes.len() as u64, "frame 0 has 4294967295 bytes"),
+        (300 << 20, 1 << 30, "frame 0 has 314572800 bytes"),
+    ] {
+        let mut damaged = bytes.clone();
+        damaged[table + 16..table + 20].copy_from_slice(&size.to_be_bytes());
+        std::fs::write(&all[0], damaged).unwrap();
+        std::fs::OpenOptions::new().write(true).open(&all[0]).unwrap().set_len(length).unwrap();
+        let (memory, joined) = peak(|| join(&all, &folder));
+        let error = joined.unwrap_err();
+        assert!(error.contains(words), "{error}");
+        assert!(memory < 8 << 20, "{memory} bytes for a frame of {size}");
+    }
 }

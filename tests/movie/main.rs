@@ -6,9 +6,13 @@ mod frames;
 #[cfg(feature = "h264")]
 mod join;
 mod judge;
+mod memory;
 #[cfg(feature = "h264")]
 mod mp4;
 mod sequences;
 #[cfg(feature = "h264")]
 mod sound;
 mod stream;
+
+#[global_allocator]
+static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

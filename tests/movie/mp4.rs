@@ -18,8 +18,9 @@ fn ffmpeg_finds_every_frame_with_its_rate_color_and_quality() {
     let folder = Folder::new("mp4");
     let path = folder.join("it.mp4");
     let size = [320, 180];
-    let rates = [("24000/1001", 100), ("30", 96), ("25", 49), ("12.5", 5), ("60", 1)];
-    for (text, count) in rates {
+    let rates =
+        [("24000/1001", 100, "12"), ("30", 96, "13"), ("25", 49, "12"), ("12.5", 5, "11"), ("60", 1, "21")];
+    for (text, count, level) in rates {
         let report = write_disc("mp4", &MovieSettings::new(size, rate(text)), &path, count, false);
         assert_eq!((report.frames, report.notices.len()), (count, 0));
         assert_eq!(report.bytes, std::fs::metadata(&path).unwrap().len());
@@ -44,6 +45,7 @@ fn ffmpeg_finds_every_frame_with_its_rate_color_and_quality() {
             ("nb_frames", count.to_string()),
             ("nb_read_frames", count.to_string()),
             ("has_b_frames", "0".to_owned()),
+            ("level", level.to_owned()),
         ];
         for (key, value) in expected {
             assert_eq!(found[key], value, "{text}: {key}");

@@ -54,7 +54,7 @@ fn an_exr_file_is_the_linear_light_of_each_frame_with_its_alpha() {
     let settings = MovieSettings::new(SIZE, rate("24000/1001"));
     let count = (SIZE[0] * SIZE[1] * 4) as usize;
     // From dark to far above white, and what is no number.
-    let mut pixels: Vec<f32> = (0..count).map(|at| 0.001 * 1.006_f32.powi(at as i32)).collect();
+    let mut pixels: Vec<f32> = (0..count).map(|at| 0.001 * 1.008_f32.powi(at as i32)).collect();
     pixels[4] = f32::NAN;
     pixels[5] = f32::INFINITY;
     let mut movie =

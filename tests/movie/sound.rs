@@ -139,3 +139,22 @@ fn sound_that_cannot_be_is_an_error() {
     assert_eq!(movie.end().unwrap_err().to_string(), "the sound: the file ended");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
+
+#[test]
+fn a_tone_needs_less_than_half_of_its_samples_and_silence_hardly_anything() {
+    let folder = Folder::new("sound-size");
+    let tone = |at: u32, loud: f32| [loud * (at as f32 * 0.05).sin(), loud * (at as f32 * 0.05 + 0.3).sin()];
+    let size = |loud: Option<f32>| {
+        let path = folder.join("it.mp4");
+        let sound = loud.map(|loud| {
+            let samples: Vec<f32> = (0..96_000).flat_map(|at| tone(at, loud)).collect();
+            MovieSound::samples(48_000, 2, blocks(&samples, 2)).unwrap()
+        });
+        write(&path, 48, sound);
+        std::fs::metadata(&path).unwrap().len()
+    };
+    let [silent, loud, none] = [Some(0.0), Some(0.5), None].map(size);
+    let samples = 96_000 * 4;
+    assert!(loud - none < samples / 2, "{} bytes of {samples}", loud - none);
+    assert!(silent - none < 2_000, "{}", silent - none);
+}

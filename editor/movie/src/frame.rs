@@ -58,50 +58,59 @@ impl<'a> MovieFrame<'a> {
 
     /// Writes the pixels as sRGB with 8 bits, not multiplied by alpha, into `out`.
     pub(crate) fn to_srgb(self, table: &SrgbTable, out: &mut Vec<u8>) {
-        out.clear();
         match self.pixels {
-            FramePixels::Srgb(pixels) => out.extend_from_slice(pixels),
-            FramePixels::Linear(pixels) => out.extend(pixels.as_chunks::<4>().0.iter().flat_map(|pixel| {
+            FramePixels::Srgb(pixels) => {
+                out.clear();
+                out.extend_from_slice(pixels);
+            }
+            FramePixels::Linear(pixels) => converted(pixels, out, |pixel: &[f32; 4]| {
                 let alpha = pixel[3];
                 let by = if alpha > 0.0 { 1.0 / alpha.min(1.0) } else { 0.0 };
                 let [red, green, blue] = [0, 1, 2].map(|channel: usize| table.encode(pixel[channel] * by));
                 // A comparison with NaN is false.
                 let alpha = if alpha > 0.0 { (alpha.min(1.0) * 255.0 + 0.5) as u8 } else { 0 };
                 [red, green, blue, alpha]
-            })),
+            }),
         }
     }
 
     /// Writes the pixels over black, as sRGB with 8 bits and without alpha, into `out`.
     pub(crate) fn to_opaque(self, table: &SrgbTable, out: &mut Vec<u8>) {
-        out.clear();
         match self.pixels {
-            FramePixels::Srgb(pixels) => out.extend(pixels.as_chunks::<4>().0.iter().flat_map(|pixel| {
+            FramePixels::Srgb(pixels) => converted(pixels, out, |pixel: &[u8; 4]| {
                 let alpha = u32::from(pixel[3]);
                 [0, 1, 2].map(|channel: usize| ((u32::from(pixel[channel]) * alpha + 127) / 255) as u8)
-            })),
-            FramePixels::Linear(pixels) => out.extend(
-                pixels
-                    .as_chunks::<4>()
-                    .0
-                    .iter()
-                    .flat_map(|pixel| [0, 1, 2].map(|channel: usize| table.encode(pixel[channel]))),
-            ),
+            }),
+            FramePixels::Linear(pixels) => converted(pixels, out, |pixel: &[f32; 4]| {
+                [0, 1, 2].map(|channel: usize| table.encode(pixel[channel]))
+            }),
         }
     }
 
     /// Writes the pixels in linear light, multiplied by alpha, into `out`; what is no number becomes 0.
     pub(crate) fn to_linear(self, table: &SrgbTable, out: &mut Vec<f32>) {
-        out.clear();
         match self.pixels {
-            FramePixels::Linear(pixels) => {
-                out.extend(pixels.iter().map(|value| if value.is_finite() { *value } else { 0.0 }));
-            }
-            FramePixels::Srgb(pixels) => out.extend(pixels.as_chunks::<4>().0.iter().flat_map(|pixel| {
+            FramePixels::Linear(pixels) => converted(pixels, out, |pixel: &[f32; 4]| {
+                pixel.map(|value| if value.is_finite() { value } else { 0.0 })
+            }),
+            FramePixels::Srgb(pixels) => converted(pixels, out, |pixel: &[u8; 4]| {
                 let alpha = f32::from(pixel[3]) / 255.0;
                 let [red, green, blue] = [0, 1, 2].map(|channel: usize| table.decode(pixel[channel]) * alpha);
                 [red, green, blue, alpha]
-            })),
+            }),
         }
+    }
+}
+
+/// Writes each pixel of four values, converted to `N` values, into `out`.
+fn converted<F, T: Copy + Default, const N: usize>(
+    pixels: &[F],
+    out: &mut Vec<T>,
+    convert: impl Fn(&[F; 4]) -> [T; N],
+) {
+    let pixels = pixels.as_chunks::<4>().0;
+    out.resize(pixels.len() * N, T::default());
+    for (out, pixel) in out.as_chunks_mut::<N>().0.iter_mut().zip(pixels) {
+        *out = convert(pixel);
     }
 }

@@ -12,7 +12,7 @@ impl SrgbTable {
     /// Computes the table.
     pub(crate) fn new() -> Self {
         let linear = std::array::from_fn(|byte| linear(byte as f64) as f32);
-        Self { linear, limits: std::array::from_fn(|byte| linear_limit(byte)) }
+        Self { linear, limits: std::array::from_fn(linear_limit) }
     }
 
     /// Returns the linear light of a byte, from 0 to 1.

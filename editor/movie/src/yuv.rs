@@ -54,37 +54,40 @@ impl YuvPicture {
         for (y, out) in luma.chunks_exact_mut(width).enumerate() {
             let row = row(y);
             for (out, pixel) in out.iter_mut().zip(row) {
-                *out = coded(MATRIX[0], pixel.map(i32::from), 1, 16);
+                *out = coded::<1, 16>(MATRIX[0], pixel.map(i32::from));
             }
             let last = out[from_width - 1];
             out[from_width..].fill(last);
         }
         let half = width.div_ceil(2);
         let [blue, red] = color;
+        let mut sums = vec![[0_i32; 3]; width + 1];
         for y in 0..height.div_ceil(2) {
             let rows = [row(2 * y), row((2 * y + 1).min(height - 1))];
-            for x in 0..half {
-                let columns = [(2 * x).saturating_sub(1), 2 * x, 2 * x + 1];
-                let mut sum = [0; 3];
-                for row in rows {
-                    for (column, weight) in columns.into_iter().zip([1, 2, 1]) {
-                        let pixel = row[column.min(from_width - 1)];
-                        (0..3).for_each(|channel| sum[channel] += weight * i32::from(pixel[channel]));
-                    }
-                }
-                let at = y * half + x;
-                blue[at] = coded(MATRIX[1], sum, 8, 128);
-                red[at] = coded(MATRIX[2], sum, 8, 128);
+            for ((sum, upper), lower) in sums.iter_mut().zip(rows[0]).zip(rows[1]) {
+                *sum = [0, 1, 2].map(|channel: usize| i32::from(upper[channel]) + i32::from(lower[channel]));
+            }
+            let last = sums[from_width - 1];
+            sums[from_width..].fill(last);
+            let mut before = sums[0];
+            let pairs = sums[..2 * half].as_chunks::<2>().0;
+            let outs = blue[y * half..].iter_mut().zip(&mut red[y * half..]);
+            for ((blue, red), [here, after]) in outs.zip(pairs) {
+                let sum =
+                    [0, 1, 2].map(|channel: usize| before[channel] + 2 * here[channel] + after[channel]);
+                *blue = coded::<8, 128>(MATRIX[1], sum);
+                *red = coded::<8, 128>(MATRIX[2], sum);
+                before = *after;
             }
         }
     }
 }
 
-/// Returns the sum of channels by their coefficients, divided by `by` and rounded, from `zero` up.
-fn coded(coefficients: [i32; 3], channels: [i32; 3], by: i32, zero: i32) -> u8 {
-    let sum: i32 = coefficients.into_iter().zip(channels).map(|(by, channel)| by * channel).sum();
+/// Returns the sum of channels by their coefficients, divided by `BY` and rounded, from `ZERO` up.
+fn coded<const BY: i32, const ZERO: i32>(by: [i32; 3], channels: [i32; 3]) -> u8 {
+    let sum = by[0] * channels[0] + by[1] * channels[1] + by[2] * channels[2];
     // Shifted to be positive, so that the division rounds to the nearest on both sides of zero.
-    ((sum + by * (zero * ONE + ONE / 2)) / (by * ONE)) as u8
+    ((sum + BY * (ZERO * ONE + ONE / 2)) / (BY * ONE)) as u8
 }
 
 #[cfg(test)]

@@ -41,7 +41,14 @@ impl GrowingFile {
         remove_leftovers(&*files, &target);
         let (temporary, file) = create_temporary(&*files, &target, old.is_some())
             .map_err(FileSaveError::at(&target, SaveStep::Create))?;
-        let growing = Self { files, target, temporary, file: Some(file), written: 0, buffer: Vec::new() };
+        let growing = Self {
+            files,
+            target,
+            temporary,
+            file: Some(file),
+            written: 0,
+            buffer: Vec::with_capacity(BUFFER),
+        };
         if let Some(old) = &old {
             let inherit =
                 |file: &dyn VfsFile| inherit(&*growing.files, &growing.target, file, old, &mut Vec::new());
