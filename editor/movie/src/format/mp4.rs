@@ -60,8 +60,14 @@ impl Mp4Writer {
                 settings.size[0], settings.size[1], size[0], size[1]
             ));
         }
+        let label = MovieLabel {
+            first: settings.first,
+            group: GROUP,
+            coarseness: settings.coarseness,
+            tag: settings.tag.clone(),
+        };
         Ok(Self {
-            file: Mp4File::create(files, &path, MovieLabel::new(settings), settings.rate, sound)?,
+            file: Mp4File::create(files, &path, label, settings.rate, sound)?,
             encoder,
             table: SrgbTable::new(),
             rgb: Vec::new(),

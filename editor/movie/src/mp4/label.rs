@@ -1,6 +1,5 @@
 //! A box with what a part of a movie is part of, so that only parts that belong together are joined.
 
-use crate::settings::{GROUP, MovieSettings};
 use shiguredo_mp4::boxes::UnknownBox;
 use shiguredo_mp4::{BoxSize, BoxType, Encode};
 
@@ -24,11 +23,6 @@ pub(crate) struct MovieLabel {
 }
 
 impl MovieLabel {
-    pub(crate) fn new(settings: &MovieSettings) -> Self {
-        let (first, coarseness) = (settings.first, settings.coarseness);
-        Self { first, group: GROUP, coarseness, tag: settings.tag.clone() }
-    }
-
     /// Returns the box of user data.
     pub(super) fn to_box(&self) -> Result<UnknownBox, shiguredo_mp4::Error> {
         let mut payload = vec![VERSION, self.coarseness];

@@ -7,9 +7,9 @@ mod writer;
 
 pub(crate) mod join;
 
-pub(crate) use label::MovieLabel;
+// The format that writes pictures exists only with an encoder; joining needs none.
 #[cfg(feature = "h264")]
-pub(crate) use label::plain_box;
-pub(crate) use writer::Mp4File;
-#[cfg(feature = "h264")]
-pub(crate) use writer::unencoded;
+pub(crate) use {
+    label::{MovieLabel, plain_box},
+    writer::{Mp4File, unencoded},
+};
