@@ -44,3 +44,8 @@ pub enum MovieError {
     #[error("the movie has no frames")]
     Empty,
 }
+
+/// Returns an error for a frame that an encoder refused.
+pub(crate) fn refused(number: u64) -> impl FnOnce(String) -> MovieError {
+    move |reason| MovieError::Frame { number, reason }
+}

@@ -1,14 +1,14 @@
 //! A movie that is being written.
 
 use crate::error::MovieError;
-use crate::format::{MovieFormat, MovieWriter};
 use crate::frame::MovieFrame;
+use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::sound::MovieSound;
 use crate::target::MovieTarget;
+use crate::writer::{MovieFormat, MovieWriter};
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
 
 /// A movie that is being written. One that is dropped instead of ended leaves no file, except for frames in files of their own.
 pub struct Movie {
@@ -16,19 +16,6 @@ pub struct Movie {
     size: [u32; 2],
     next: u64,
     failed: bool,
-}
-
-/// The result of a movie.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct MovieReport {
-    /// Number of frames that were written.
-    pub frames: u64,
-    /// The file, or that of the last frame; `None` for a stream.
-    pub path: Option<PathBuf>,
-    /// Number of bytes of all files.
-    pub bytes: u64,
-    /// Differences from the frames that were given, in sentences for the user.
-    pub notices: Vec<String>,
 }
 
 impl fmt::Debug for Movie {

@@ -1,15 +1,16 @@
 //! Animated PNG: without loss and with alpha; only what changed in each frame.
 
-use super::png::{encode, refused};
-use super::{MovieFormat, MovieWriter};
+use super::png::encode;
 use crate::changed::ChangedRect;
 use crate::error::MovieError;
+use crate::error::refused;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
-use crate::movie::MovieReport;
+use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
+use crate::writer::{MovieFormat, MovieWriter};
 use crc::{CRC_32_ISO_HDLC, Crc};
 use dragonfly_store::{FileSaveError, GrowingFile};
 

@@ -1,9 +1,9 @@
 //! OpenEXR: a file for each frame in linear light, with half floats and alpha.
 
-use super::MovieFormat;
 use super::sequence::FrameFiles;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
 use crate::srgb::SrgbTable;
+use crate::writer::MovieFormat;
 use dragonfly_anim::stage::time::StageRate;
 use exr::prelude::{Compression, Encoding, Image, SpecificChannels, Vec2, WritableImage, f16};
 use std::io::Cursor;

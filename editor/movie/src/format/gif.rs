@@ -2,19 +2,19 @@
 //!
 //! The palette is known at the end only, so the frames wait in a temporary file until then.
 
-use super::{MovieFormat, MovieWriter};
 use crate::changed::ChangedRect;
 use crate::error::MovieError;
 use crate::frame::MovieFrame;
 use crate::gif::dither::DitherTable;
 use crate::gif::histogram::ColorHistogram;
 use crate::gif::palette::palette;
-use crate::movie::MovieReport;
+use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::spool::FrameSpool;
 use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
+use crate::writer::{MovieFormat, MovieWriter};
 use dragonfly_store::GrowingFile;
 use std::borrow::Cow;
 

@@ -10,38 +10,7 @@ mod sequence;
 mod webp;
 mod y4m;
 
-use crate::error::MovieError;
-use crate::frame::MovieFrame;
-use crate::movie::MovieReport;
-use crate::settings::MovieSettings;
-use crate::sound::MovieSound;
-use crate::target::MovieTarget;
-
-/// Begins to write a movie; only formats that have sound receive any.
-type BeginMovie =
-    fn(&MovieSettings, MovieTarget, Option<MovieSound>) -> Result<Box<dyn MovieWriter>, MovieError>;
-
-/// A format of movies.
-#[derive(Clone, Copy, Debug)]
-pub struct MovieFormat {
-    /// Name for the command line.
-    pub name: &'static str,
-    /// Title for the user.
-    pub title: &'static str,
-    /// Extensions of file names, lower case.
-    pub extensions: &'static [&'static str],
-    /// Whether the format keeps alpha; frames are put over black otherwise.
-    pub has_alpha: bool,
-    /// Whether the movie can have sound.
-    pub has_sound: bool,
-    /// Whether each frame is a file of its own.
-    pub is_sequence: bool,
-    /// Whether the movie can go to a stream.
-    pub can_stream: bool,
-    /// Largest width and height in pixels.
-    pub side: u32,
-    pub(crate) begin: BeginMovie,
-}
+use crate::writer::MovieFormat;
 
 /// All formats.
 pub const MOVIE_FORMATS: &[MovieFormat] = &[
@@ -58,13 +27,4 @@ pub const MOVIE_FORMATS: &[MovieFormat] = &[
 /// Returns the format with a name.
 pub fn movie_format(name: &str) -> Option<&'static MovieFormat> {
     MOVIE_FORMATS.iter().find(|format| format.name == name)
-}
-
-/// A movie of one format in the middle of being written.
-pub(crate) trait MovieWriter {
-    /// Writes the next frame, which has the size of the movie. After an error, [`Self::end`] still completes the movie with the frames before.
-    fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError>;
-
-    /// Writes the rest.
-    fn end(self: Box<Self>) -> Result<MovieReport, MovieError>;
 }

@@ -1,16 +1,16 @@
 //! MP4 with H.264, which every player and browser shows.
 
-use super::png::refused;
-use super::{MovieFormat, MovieWriter};
 use crate::error::MovieError;
+use crate::error::refused;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
 use crate::h264::{BT709, H264Encoder, ParameterSets};
-use crate::movie::MovieReport;
 use crate::mp4::{MovieLabel, Mp4File, plain_box, unencoded};
+use crate::report::MovieReport;
 use crate::settings::{GROUP, MovieSettings};
 use crate::sound::MovieSound;
 use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
+use crate::writer::{MovieFormat, MovieWriter};
 use crate::yuv::YuvPicture;
 use shiguredo_mp4::bitstream::h264::{H264SampleEntryConfig, LengthSize, build_avc1_box};
 use shiguredo_mp4::boxes::SampleEntry;

@@ -1,10 +1,9 @@
 //! PNG: a file for each frame, without loss and with alpha.
 
-use super::MovieFormat;
 use super::sequence::FrameFiles;
-use crate::error::MovieError;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
 use crate::srgb::SrgbTable;
+use crate::writer::MovieFormat;
 
 pub(super) const PNG: MovieFormat = MovieFormat {
     name: "png",
@@ -36,9 +35,4 @@ pub(super) fn encode(rgba: &[u8], [width, height]: [u32; 2], out: &mut Vec<u8>) 
     let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
     writer.write_image_data(rgba).map_err(|error| error.to_string())?;
     writer.finish().map_err(|error| error.to_string())
-}
-
-/// Returns an error for a frame that an encoder refused.
-pub(super) fn refused(number: u64) -> impl FnOnce(String) -> MovieError {
-    move |reason| MovieError::Frame { number, reason }
 }

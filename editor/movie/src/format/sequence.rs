@@ -1,11 +1,11 @@
 //! A file for each frame. Each is complete or not there, so that a movie can be resumed and rendered in parts.
 
-use super::MovieWriter;
-use crate::error::MovieError;
+use crate::error::{MovieError, refused};
 use crate::frame::MovieFrame;
-use crate::movie::MovieReport;
+use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::target::{MovieTarget, SequenceName};
+use crate::writer::MovieWriter;
 use dragonfly_store::{SaveOptions, Vfs, save};
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ impl FrameFiles {
 
 impl MovieWriter for FrameFiles {
     fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError> {
-        (self.encode)(frame, &mut self.bytes).map_err(super::png::refused(number))?;
+        (self.encode)(frame, &mut self.bytes).map_err(refused(number))?;
         let saved = save(&*self.files, &self.name.frame(number), &self.bytes, &SaveOptions::default())?;
         self.report.frames += 1;
         self.report.bytes += self.bytes.len() as u64;

@@ -1,16 +1,16 @@
 //! Animated WebP without loss and with alpha; only what changed in each frame. The frames are encoded by the crate `image-webp`, and the
 //! container around them is written here.
 
-use super::png::refused;
-use super::{MovieFormat, MovieWriter};
 use crate::changed::ChangedRect;
 use crate::error::MovieError;
+use crate::error::refused;
 use crate::frame::MovieFrame;
-use crate::movie::MovieReport;
+use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
+use crate::writer::{MovieFormat, MovieWriter};
 use dragonfly_store::GrowingFile;
 use image_webp::{ColorType, WebPEncoder};
 

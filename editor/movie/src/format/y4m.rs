@@ -1,12 +1,12 @@
 //! Y4M: pictures without compression, which any encoder reads from a file or a pipe.
 
-use super::{MovieFormat, MovieWriter};
 use crate::error::MovieError;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
-use crate::movie::MovieReport;
+use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::srgb::SrgbTable;
 use crate::target::{MovieOutput, MovieTarget};
+use crate::writer::{MovieFormat, MovieWriter};
 use crate::yuv::YuvPicture;
 
 pub(super) const Y4M: MovieFormat = MovieFormat {

@@ -3,7 +3,7 @@
 use super::part::MoviePart;
 use super::writer::{Mp4File, ticks};
 use crate::error::MovieError;
-use crate::movie::MovieReport;
+use crate::report::MovieReport;
 use crate::sound::MovieSound;
 use crate::target::MovieTarget;
 use dragonfly_anim::stage::time::StageRate;

@@ -2,14 +2,14 @@
 
 /// Bytes that grow by bits.
 #[derive(Clone, Debug, Default)]
-pub(super) struct BitWriter {
+pub(super) struct SoundBits {
     bytes: Vec<u8>,
     /// Bits that do not fill a byte yet, and their number.
     open: u64,
     count: u32,
 }
 
-impl BitWriter {
+impl SoundBits {
     /// Writes the lowest `count` bits of a number, at most 32.
     pub(super) fn put(&mut self, value: u32, count: u32) {
         let value = u64::from(value) & ((1 << count) - 1);
@@ -44,7 +44,7 @@ mod tests {
 
     #[test]
     fn bits_are_written_in_order() {
-        let mut bits = BitWriter::default();
+        let mut bits = SoundBits::default();
         bits.put(0b101, 3);
         bits.put(0xFFFF_FFFF, 32);
         bits.unary(33);

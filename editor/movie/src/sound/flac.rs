@@ -1,7 +1,7 @@
 //! FLAC: samples of 16 bits without loss, each block in the best of five predictions and with Rice codes. Integers only, so that the same sound gives the
 //! same bytes on every processor.
 
-use super::bits::BitWriter;
+use super::bits::SoundBits;
 use super::{ReadSamples, SoundPacket, SoundPackets};
 use crc::{CRC_8_SMBUS, CRC_16_UMTS, Crc};
 use shiguredo_mp4::boxes::{AudioSampleEntryFields, DflaBox, FlacBox, FlacMetadataBlock, SampleEntry};
@@ -51,7 +51,7 @@ impl SoundPackets for FlacEncoder {
     }
 
     fn entry(&self) -> SampleEntry {
-        let mut info = BitWriter::default();
+        let mut info = SoundBits::default();
         // Smallest and largest block, sizes of frames that are not known.
         info.put(BLOCK as u32, 16);
         info.put(BLOCK as u32, 16);
@@ -107,7 +107,7 @@ fn level(sample: f32) -> i32 {
 
 /// Returns a frame with a block of samples.
 fn encode(channels: &[Vec<i32>], number: u32) -> Vec<u8> {
-    let mut bits = BitWriter::default();
+    let mut bits = SoundBits::default();
     let length = channels.first().map_or(0, Vec::len);
     let plain: Vec<Subframe> = channels.iter().map(|samples| Subframe::best(samples, DEPTH)).collect();
     let mut assignment = channels.len() as u32 - 1;
@@ -142,7 +142,7 @@ fn encode(channels: &[Vec<i32>], number: u32) -> Vec<u8> {
 }
 
 /// Writes a number in the form of UTF-8, which the format extends to 31 bits.
-fn coded_number(bits: &mut BitWriter, number: u32) {
+fn coded_number(bits: &mut SoundBits, number: u32) {
     if number < 0x80 {
         return bits.put(number, 8);
     }
@@ -193,7 +193,7 @@ impl Subframe {
         best
     }
 
-    fn write(&self, bits: &mut BitWriter) {
+    fn write(&self, bits: &mut SoundBits) {
         match &self.kind {
             Prediction::Constant => {
                 bits.put(0, 8);
