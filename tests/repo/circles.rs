@@ -13,6 +13,7 @@ const CRATES: &[(&str, usize)] = &[
     ("runtime", 9),
     ("anim", LARGEST),
     ("editor/store", LARGEST),
+    ("editor/movie", LARGEST),
     ("editor/fbx", LARGEST),
     ("editor/document", LARGEST),
     ("editor/picture", LARGEST),

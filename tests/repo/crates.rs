@@ -10,6 +10,18 @@ const WALLS: &[(&str, &[&str])] = &[
     ("dragonfly-anim", &["dragonfly-runtime", "dragonfly-store", "egui", "winit", "wgpu"]),
     ("dragonfly-store", &["dragonfly-anim", "dragonfly-runtime", "glam", "egui", "winit", "wgpu"]),
     ("dragonfly-sound", &["dragonfly-document", "dragonfly-picture", "egui", "winit", "wgpu", "cpal"]),
+    (
+        "dragonfly-movie",
+        &[
+            "dragonfly-runtime",
+            "dragonfly-sound",
+            "dragonfly-document",
+            "dragonfly-picture",
+            "egui",
+            "winit",
+            "wgpu",
+        ],
+    ),
     ("dragonfly-fbx", &["dragonfly-document", "dragonfly-picture", "egui", "winit", "wgpu"]),
     ("dragonfly-document", &["dragonfly-picture", "egui", "winit", "wgpu"]),
     ("dragonfly-picture", &["dragonfly", "winit", "egui-winit", "egui_tiles"]),

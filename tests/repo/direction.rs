@@ -132,6 +132,7 @@ const ABSENCES: &[Absence] = &[
             "editor/src/",
             "editor/store/",
             "editor/fbx/",
+            "editor/movie/",
             "editor/document/",
             "editor/picture/",
         ],

@@ -1,5 +1,6 @@
 //! Tests of the store crate, one module for each guarantee.
 
+mod growing;
 mod journal;
 mod journal_damage;
 mod journal_faults;

@@ -228,6 +228,15 @@ impl StageRate {
         [frame, round].into_iter().find(is_near).unwrap_or(time)
     }
 
+    /// Returns the rate as a fraction in lowest terms: the number of frames, and the seconds that they take.
+    pub fn fraction(self) -> (u32, u32) {
+        let (mut divisor, mut rest) = (self.frames, self.seconds);
+        while rest > 0 {
+            (divisor, rest) = (rest, divisor % rest);
+        }
+        (self.frames / divisor, self.seconds / divisor)
+    }
+
     /// Returns the frames per second, rounded to the nearest `f64`.
     pub fn per_second(self) -> f64 {
         f64::from(self.frames) / f64::from(self.seconds)

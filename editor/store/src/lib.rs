@@ -8,12 +8,13 @@
 //! All access to the file system goes through the trait [`Vfs`], so that tests can make every single call fail.
 //!
 //! The modules depend on each other in one direction: `vfs` ← `stamp` ← `target`, `temporary` ← `in_place`, `versions` ←
-//! `save`; `record`, `state`, `lock` ← `journal` (with `successor`) ← `autosave` ← `recoverable` ← `begin` ← `recovery`.
+//! `save` ← `growing`; `record`, `state`, `lock` ← `journal` (with `successor`) ← `autosave` ← `recoverable` ← `begin` ← `recovery`.
 
 mod autosave;
 mod begin;
 mod document;
 mod error;
+mod growing;
 mod in_place;
 mod journal;
 mod lock;
@@ -36,6 +37,7 @@ pub use autosave::Autosave;
 pub use begin::Opening;
 pub use document::save_document;
 pub use error::{FileSaveError, SaveStep};
+pub use growing::GrowingFile;
 pub use in_place::{discard_old_content, interrupted_save, restore_old_content};
 pub use journal::{Journal, JournalError, LONGEST_UNSYNCED};
 pub use numbered::FolderLimits;

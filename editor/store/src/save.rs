@@ -146,7 +146,7 @@ fn fill(
 }
 
 /// Gives `file` the owner, permissions and attributes of the file at `target`.
-fn inherit(
+pub(super) fn inherit(
     files: &dyn Vfs,
     target: &Path,
     file: &dyn VfsFile,

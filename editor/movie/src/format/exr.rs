@@ -1,0 +1,49 @@
+//! OpenEXR: a file for each frame in linear light, with half floats and alpha.
+
+use super::sequence::FrameFiles;
+use crate::frame::{LARGEST_SIDE, MovieFrame};
+use crate::srgb::SrgbTable;
+use crate::writer::MovieFormat;
+use dragonfly_anim::stage::time::StageRate;
+use exr::prelude::{Compression, Encoding, Image, SpecificChannels, Vec2, WritableImage, f16};
+use std::io::Cursor;
+
+/// Largest finite half float.
+const LARGEST: f32 = 65_504.0;
+
+pub(super) const EXR: MovieFormat = MovieFormat {
+    name: "exr",
+    title: "OpenEXR files",
+    extensions: &["exr"],
+    has_alpha: true,
+    has_sound: false,
+    is_sequence: true,
+    can_stream: false,
+    side: LARGEST_SIDE,
+    begin: |settings, target, _| {
+        let (table, mut pixels, rate) = (SrgbTable::new(), Vec::new(), settings.rate);
+        let encode = move |frame: MovieFrame<'_>, out: &mut Vec<u8>| {
+            frame.to_linear(&table, &mut pixels);
+            encode(&pixels, frame.size(), rate, out)
+        };
+        Ok(Box::new(FrameFiles::begin("OpenEXR files", settings, target, Box::new(encode))?))
+    },
+};
+
+/// Encodes pixels of red, green, blue and alpha.
+fn encode(rgba: &[f32], size: [u32; 2], rate: StageRate, out: &mut Vec<u8>) -> Result<(), String> {
+    out.clear();
+    let [width, height] = size.map(|side| side as usize);
+    let pixels = rgba.as_chunks::<4>().0;
+    let half = |value: f32| f16::from_f32(value.clamp(-LARGEST, LARGEST));
+    let channels = SpecificChannels::rgba(|at: Vec2<usize>| {
+        let [red, green, blue, alpha] = pixels[at.y() * width + at.x()].map(half);
+        (red, green, blue, alpha)
+    });
+    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
+    let mut image = Image::from_encoded_channels((width, height), encoding, channels);
+    let (frames, seconds) = rate.fraction();
+    image.layer_data.attributes.frames_per_second =
+        i32::try_from(frames).ok().map(|frames| (frames, seconds));
+    image.write().non_parallel().to_buffered(Cursor::new(out)).map_err(|error| error.to_string())
+}

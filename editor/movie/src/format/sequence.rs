@@ -1,0 +1,52 @@
+//! A file for each frame. Each is complete or not there, so that a movie can be resumed and rendered in parts.
+
+use crate::error::{MovieError, refused};
+use crate::frame::MovieFrame;
+use crate::report::MovieReport;
+use crate::settings::MovieSettings;
+use crate::target::{MovieTarget, SequenceName};
+use crate::writer::MovieWriter;
+use dragonfly_store::{SaveOptions, Vfs, save};
+use std::sync::Arc;
+
+/// Encodes a frame into bytes; an error is a clause.
+type EncodeFrame = Box<dyn FnMut(MovieFrame<'_>, &mut Vec<u8>) -> Result<(), String>>;
+
+/// Writes each frame into a file.
+pub(super) struct FrameFiles {
+    files: Arc<dyn Vfs>,
+    name: SequenceName,
+    encode: EncodeFrame,
+    bytes: Vec<u8>,
+    report: MovieReport,
+}
+
+impl FrameFiles {
+    pub(super) fn begin(
+        format: &'static str,
+        _settings: &MovieSettings,
+        target: MovieTarget,
+        encode: EncodeFrame,
+    ) -> Result<Self, MovieError> {
+        let (files, path) = target.into_path(format)?;
+        let reason = || format!("{} is not the name of a file", path.display());
+        let name =
+            SequenceName::parse(&path).ok_or_else(|| MovieError::Settings { format, reason: reason() })?;
+        Ok(Self { files, name, encode, bytes: Vec::new(), report: MovieReport::default() })
+    }
+}
+
+impl MovieWriter for FrameFiles {
+    fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError> {
+        (self.encode)(frame, &mut self.bytes).map_err(refused(number))?;
+        let saved = save(&*self.files, &self.name.frame(number), &self.bytes, &SaveOptions::default())?;
+        self.report.frames += 1;
+        self.report.bytes += self.bytes.len() as u64;
+        self.report.path = Some(saved.path);
+        Ok(())
+    }
+
+    fn end(self: Box<Self>) -> Result<MovieReport, MovieError> {
+        if self.report.frames == 0 { Err(MovieError::Empty) } else { Ok(self.report) }
+    }
+}

@@ -1,0 +1,133 @@
+//! Animated WebP without loss and with alpha; only what changed in each frame. The frames are encoded by the crate `image-webp`, and the
+//! container around them is written here.
+
+use crate::changed::ChangedRect;
+use crate::error::MovieError;
+use crate::error::refused;
+use crate::frame::MovieFrame;
+use crate::report::MovieReport;
+use crate::settings::MovieSettings;
+use crate::srgb::SrgbTable;
+use crate::target::MovieTarget;
+use crate::timing::start_of;
+use crate::writer::{MovieFormat, MovieWriter};
+use dragonfly_store::GrowingFile;
+use image_webp::{ColorType, WebPEncoder};
+
+pub(super) const WEBP: MovieFormat = MovieFormat {
+    name: "webp",
+    title: "animated WebP",
+    extensions: &["webp"],
+    has_alpha: true,
+    has_sound: false,
+    is_sequence: false,
+    can_stream: false,
+    side: 16_383,
+    begin: |settings, target, _| Ok(Box::new(WebpWriter::begin(settings, target)?)),
+};
+
+/// Units of time in a second.
+const UNITS: u32 = 1000;
+/// Bytes before the chunk of the encoded frame in what the encoder returns: the header of a RIFF file.
+const RIFF: usize = 12;
+/// Largest file: its size has 32 bits and is even.
+const LARGEST_FILE: u64 = u32::MAX as u64 - 9;
+/// Flags of the file: frames, and alpha in some of them.
+const ANIMATED: u8 = 0x02;
+const ALPHA: u8 = 0x10;
+/// Flag of a frame that replaces what is in its rectangle.
+const REPLACES: u8 = 0x02;
+
+struct WebpWriter {
+    settings: MovieSettings,
+    file: GrowingFile,
+    table: SrgbTable,
+    /// Pixels of the last frame and of this one.
+    pixels: [Vec<u8>; 2],
+    frames: u64,
+    has_alpha: bool,
+    whole: u64,
+}
+
+impl WebpWriter {
+    fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<Self, MovieError> {
+        let (files, path) = target.into_path(WEBP.title)?;
+        let file = GrowingFile::create(files, &path)?;
+        let pixels = [Vec::new(), Vec::new()];
+        let table = SrgbTable::new();
+        Ok(Self { settings: settings.clone(), file, table, pixels, frames: 0, has_alpha: false, whole: 0 })
+    }
+
+    /// Returns the bytes before the first frame.
+    fn header(&self, size: u64) -> Vec<u8> {
+        let mut header = b"RIFF".to_vec();
+        header.extend(((size - 8) as u32).to_le_bytes());
+        header.extend(b"WEBPVP8X\x0a\0\0\0");
+        header.extend([ANIMATED | if self.has_alpha { ALPHA } else { 0 }, 0, 0, 0]);
+        self.settings.size.iter().for_each(|side| header.extend(three(*side - 1)));
+        header.extend(b"ANIM\x06\0\0\0\0\0\0\0");
+        header.extend(u16::from(!self.settings.repeats).to_le_bytes());
+        header
+    }
+
+    fn write(&mut self, number: u64) -> Result<(), MovieError> {
+        if self.frames == 0 {
+            let header = self.header(8);
+            self.file.append(&header)?;
+        }
+        let size = self.settings.size;
+        let [before, now] = &self.pixels;
+        let (before, now) = (before.as_chunks::<4>().0, now.as_chunks::<4>().0);
+        let mut rect = ChangedRect::whole(size);
+        let mut cut = Vec::new();
+        if self.frames > 0 {
+            rect = ChangedRect::between(before, now, size, true);
+        }
+        rect.cut(now, size, &mut cut);
+        let mut encoded = Vec::new();
+        WebPEncoder::new(&mut encoded)
+            .encode(cut.as_flattened(), rect.width, rect.height, ColorType::Rgba8)
+            .map_err(|error| refused(number)(error.to_string()))?;
+        let image = encoded.get(RIFF..).unwrap_or_default();
+        let start = |frame| start_of(frame, self.settings.rate, UNITS);
+        let duration = start(self.frames + 1) - start(self.frames);
+        let mut chunk = b"ANMF".to_vec();
+        chunk.extend((16 + image.len() as u32).to_le_bytes());
+        let values = [rect.x / 2, rect.y / 2, rect.width - 1, rect.height - 1, duration as u32];
+        chunk.extend(values.map(three).as_flattened());
+        chunk.push(REPLACES);
+        if self.file.size() + (chunk.len() + image.len()) as u64 > LARGEST_FILE {
+            return Err(refused(number)("a WebP file has at most 4 GB".to_owned()));
+        }
+        self.has_alpha |= cut.iter().any(|pixel| pixel[3] < 255);
+        self.file.append(&chunk)?;
+        Ok(self.file.append(image)?)
+    }
+}
+
+impl MovieWriter for WebpWriter {
+    fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError> {
+        frame.to_srgb(&self.table, &mut self.pixels[1]);
+        self.write(number)?;
+        self.pixels.swap(0, 1);
+        (self.frames, self.whole) = (self.frames + 1, self.file.size());
+        Ok(())
+    }
+
+    fn end(mut self: Box<Self>) -> Result<MovieReport, MovieError> {
+        if self.frames == 0 {
+            return Err(MovieError::Empty);
+        }
+        self.file.truncate(self.whole)?;
+        let header = self.header(self.whole);
+        self.file.overwrite(&header, 0)?;
+        let (path, bytes) = self.file.commit()?;
+        Ok(MovieReport { frames: self.frames, path: Some(path), bytes, notices: Vec::new() })
+    }
+}
+
+/// Returns the lowest three bytes.
+fn three(value: u32) -> [u8; 3] {
+    let [one, two, three, _] = value.to_le_bytes();
+    [one, two, three]
+}

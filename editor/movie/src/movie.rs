@@ -1,0 +1,107 @@
+//! A movie that is being written.
+
+use crate::error::MovieError;
+use crate::frame::MovieFrame;
+use crate::report::MovieReport;
+use crate::settings::MovieSettings;
+use crate::sound::MovieSound;
+use crate::target::MovieTarget;
+use crate::writer::{MovieFormat, MovieWriter};
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// A movie that is being written. One that is dropped instead of ended leaves no file, except for frames in files of their own.
+pub struct Movie {
+    writer: Box<dyn MovieWriter>,
+    size: [u32; 2],
+    next: u64,
+    failed: bool,
+}
+
+impl fmt::Debug for Movie {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "Movie({:?}, frame {})", self.size, self.next)
+    }
+}
+
+impl Movie {
+    /// Begins a movie.
+    ///
+    /// # Errors
+    /// When the settings do not fit the format, or the file cannot be created.
+    pub fn begin(
+        format: &MovieFormat,
+        settings: &MovieSettings,
+        target: MovieTarget,
+    ) -> Result<Self, MovieError> {
+        Self::begin_with(format, settings, target, None)
+    }
+
+    /// Begins a movie with sound.
+    ///
+    /// # Errors
+    /// As [`Self::begin`], and when the format has no sound.
+    pub fn begin_with_sound(
+        format: &MovieFormat,
+        settings: &MovieSettings,
+        target: MovieTarget,
+        sound: MovieSound,
+    ) -> Result<Self, MovieError> {
+        if !format.has_sound {
+            let reason = "cannot have sound; choose MP4".to_owned();
+            return Err(MovieError::Settings { format: format.title, reason });
+        }
+        Self::begin_with(format, settings, target, Some(sound))
+    }
+
+    fn begin_with(
+        format: &MovieFormat,
+        settings: &MovieSettings,
+        target: MovieTarget,
+        sound: Option<MovieSound>,
+    ) -> Result<Self, MovieError> {
+        settings.check(format.title, format.side)?;
+        let writer = (format.begin)(settings, target, sound)?;
+        Ok(Self { writer, size: settings.size, next: settings.first, failed: false })
+    }
+
+    /// Returns the number of the next frame, counted from the start of the whole movie.
+    pub fn next_frame(&self) -> u64 {
+        self.next
+    }
+
+    /// Writes the next frame.
+    ///
+    /// # Errors
+    /// When it has another size, or cannot be written. No later frame can be written then; [`Self::end`] completes the movie with the
+    /// frames that were, and dropping the movie removes it.
+    pub fn frame(&mut self, frame: MovieFrame<'_>) -> Result<(), MovieError> {
+        let number = self.next;
+        if self.failed {
+            let reason = "an earlier frame was not written".to_owned();
+            return Err(MovieError::Frame { number, reason });
+        }
+        frame.check(self.size, number)?;
+        let written = guarded(number, || self.writer.frame(frame, number));
+        match written {
+            Ok(()) => self.next += 1,
+            Err(_) => self.failed = true,
+        }
+        written
+    }
+
+    /// Completes the movie.
+    ///
+    /// # Errors
+    /// When there are no frames, or the rest cannot be written; then there is no file, except for frames in files of their own.
+    pub fn end(self) -> Result<MovieReport, MovieError> {
+        let Self { writer, next, .. } = self;
+        guarded(next, || writer.end())
+    }
+}
+
+/// Runs an encoder of another crate. One that panics is like one that fails.
+fn guarded<T>(number: u64, work: impl FnOnce() -> Result<T, MovieError>) -> Result<T, MovieError> {
+    catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|_| Err(MovieError::Frame { number, reason: "the encoder failed".to_owned() }))
+}

@@ -1,0 +1,137 @@
+//! A part of a movie, read from its file. Its tables are checked before anything is copied.
+
+use super::label::MovieLabel;
+use crate::error::MovieError;
+use dragonfly_store::{Vfs, VfsFile};
+use shiguredo_mp4::aux::SampleTableAccessor;
+use shiguredo_mp4::boxes::{MoovBox, SampleEntry, StblBox};
+use shiguredo_mp4::{BoxType, Decode};
+use std::io;
+use std::num::NonZeroU32;
+use std::path::{Path, PathBuf};
+
+/// Largest tables that are read, in bytes: those of a day at 60 frames per second are far smaller.
+const LARGEST_TABLES: u64 = 256 << 20;
+/// Largest sample that is read, in bytes.
+const LARGEST_SAMPLE: u32 = 256 << 20;
+
+/// A part of a movie.
+pub(super) struct MoviePart {
+    path: PathBuf,
+    file: Box<dyn VfsFile>,
+    pub(super) label: MovieLabel,
+    pub(super) entry: SampleEntry,
+    pub(super) timescale: NonZeroU32,
+    pub(super) delta: u32,
+    table: SampleTableAccessor<StblBox>,
+}
+
+impl MoviePart {
+    /// Opens a part and reads its tables.
+    pub(super) fn open(files: &dyn Vfs, path: &Path) -> Result<Self, MovieError> {
+        let wrong = |reason: String| MovieError::Part { path: path.to_path_buf(), reason };
+        let unread = |error: io::Error| wrong(error.to_string());
+        let file = files.open(path).map_err(unread)?;
+        let size = file.metadata().map_err(unread)?.size;
+        let tables = tables(&*file, size).map_err(unread)?;
+        let tables = tables.ok_or_else(|| wrong("it is no complete MP4".to_owned()))?;
+        let damaged = |error: shiguredo_mp4::Error| wrong(format!("its tables are damaged: {error}"));
+        let (tables, _) = MoovBox::decode(&tables).map_err(damaged)?;
+        let label = tables.unknown_boxes.iter().find_map(MovieLabel::from_box);
+        let label = label.ok_or_else(|| wrong("it is no part of a movie of this program".to_owned()))?;
+        let mut tracks = tables.trak_boxes.into_iter();
+        let (Some(track), None) = (tracks.next(), tracks.next()) else {
+            return Err(wrong("it has sound; parts are joined before the sound is added".to_owned()));
+        };
+        let timescale = track.mdia_box.mdhd_box.timescale;
+        let table = track.mdia_box.minf_box.stbl_box;
+        let ([entry], [durations]) = (table.stsd_box.entries.as_slice(), table.stts_box.entries.as_slice())
+        else {
+            return Err(wrong("its frames are not all alike".to_owned()));
+        };
+        let (entry, delta) = (entry.clone(), durations.sample_delta);
+        let table = SampleTableAccessor::new(table)
+            .map_err(|error| wrong(format!("its tables are damaged: {error}")))?;
+        Ok(Self { path: path.to_path_buf(), file, label, entry, timescale, delta, table })
+    }
+
+    /// Returns an error about the part.
+    pub(super) fn wrong(&self, reason: String) -> MovieError {
+        MovieError::Part { path: self.path.clone(), reason }
+    }
+
+    /// Returns the number of frames.
+    pub(super) fn frames(&self) -> u64 {
+        u64::from(self.table.sample_count())
+    }
+
+    /// Calls `add` with the bytes of each sample in order, and whether it needs no other sample.
+    pub(super) fn samples(
+        &self,
+        mut add: impl FnMut(&[u8], bool) -> Result<(), MovieError>,
+    ) -> Result<(), MovieError> {
+        let mut bytes = Vec::new();
+        for (number, sample) in (self.label.first..).zip(self.table.samples()) {
+            let is_whole = sample.is_sync_sample();
+            if is_whole != number.is_multiple_of(self.label.group) {
+                return Err(self.wrong(format!("frame {number} begins no group, or one where none begins")));
+            }
+            let size = sample.data_size();
+            if size > LARGEST_SAMPLE {
+                return Err(self.wrong(format!("frame {number} has {size} bytes")));
+            }
+            let end = sample.data_offset().checked_add(u64::from(size));
+            let length = self.file.metadata().map_err(|error| self.wrong(error.to_string()))?.size;
+            if end.is_none_or(|end| end > length) {
+                return Err(self.wrong(format!("the file ends before frame {number}")));
+            }
+            bytes.resize(size as usize, 0);
+            read(&*self.file, &mut bytes, sample.data_offset())
+                .map_err(|error| self.wrong(error.to_string()))?;
+            add(&bytes, is_whole)?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns the bytes of the box of tables; `None` if the file ends before.
+fn tables(file: &dyn VfsFile, end: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut at = 0;
+    while at < end {
+        let mut header = [0; 16];
+        let length = (end - at).min(16) as usize;
+        read(file, &mut header[..length], at)?;
+        let [size, kind, large @ ..] = header.as_chunks::<4>().0 else { return Ok(None) };
+        let size = match u32::from_be_bytes(*size) {
+            0 => end - at,
+            1 => u64::from_be_bytes(*large.as_flattened().first_chunk().unwrap_or(&[0; 8])),
+            size => u64::from(size),
+        };
+        if size < 8 || size > end - at {
+            return Ok(None);
+        }
+        if BoxType::Normal(*kind) == MoovBox::TYPE {
+            if size > LARGEST_TABLES {
+                return Ok(None);
+            }
+            let mut bytes = vec![0; size as usize];
+            read(file, &mut bytes, at)?;
+            return Ok(Some(bytes));
+        }
+        at += size;
+    }
+    Ok(None)
+}
+
+fn read(file: &dyn VfsFile, bytes: &mut [u8], offset: u64) -> io::Result<()> {
+    let mut done = 0;
+    while done < bytes.len() {
+        match file.read_at(&mut bytes[done..], offset + done as u64) {
+            Ok(0) => return Err(io::Error::from(io::ErrorKind::UnexpectedEof)),
+            Ok(read) => done += read,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}

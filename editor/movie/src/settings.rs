@@ -1,0 +1,59 @@
+//! Settings of a movie.
+
+use crate::error::MovieError;
+use crate::frame::LARGEST_SIDE;
+use dragonfly_anim::stage::time::StageRate;
+
+/// Number of frames of a group: each begins with a frame that needs no other one, and parts of a movie are whole groups.
+pub const GROUP: u64 = 48;
+
+/// Settings of a movie.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MovieSettings {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Frames per second.
+    pub rate: StageRate,
+    /// Coarseness of formats with loss, from 10 (best) to 45 (smallest file); 24 is good and 27 small.
+    pub coarseness: u8,
+    /// Number of the first frame in the whole movie: the number in the first file name of a sequence. Parts of an MP4 begin at multiples
+    /// of [`GROUP`].
+    pub first: u64,
+    /// Whether an animation begins again after its end; only for formats that are images.
+    pub repeats: bool,
+    /// Identity of what is rendered, at most 200 bytes. Parts with different ones are not joined.
+    pub tag: String,
+}
+
+impl MovieSettings {
+    /// Creates settings for a movie of good quality that starts at frame 0.
+    pub fn new(size: [u32; 2], rate: StageRate) -> Self {
+        Self { size, rate, coarseness: 24, first: 0, repeats: true, tag: String::new() }
+    }
+
+    /// Returns an error unless the settings are possible in a format with sides of up to `side` pixels.
+    pub(crate) fn check(&self, format: &'static str, side: u32) -> Result<(), MovieError> {
+        let side = side.min(LARGEST_SIDE);
+        let [width, height] = self.size;
+        let wrong = |reason| Err(MovieError::Settings { format, reason });
+        if width == 0 || height == 0 || width > side || height > side {
+            return wrong(format!(
+                "a movie of {width} × {height} pixels: from 1 × 1 to {side} × {side} are possible"
+            ));
+        }
+        if !(10..=45).contains(&self.coarseness) {
+            return wrong(format!("a coarseness of {}: from 10 to 45 are possible", self.coarseness));
+        }
+        if self.tag.len() > 200 {
+            return wrong(format!("a tag of {} bytes: at most 200 are possible", self.tag.len()));
+        }
+        Ok(())
+    }
+}
+
+/// Returns the first frame and the number of frames of each part, when `frames` frames are rendered in parts of about `length` frames: whole
+/// groups, so that the joined parts are what one pass writes.
+pub fn movie_parts(frames: u64, length: u64) -> Vec<(u64, u64)> {
+    let length = length.div_ceil(GROUP).max(1).saturating_mul(GROUP);
+    (0..frames.div_ceil(length)).map(|part| (part * length, length.min(frames - part * length))).collect()
+}

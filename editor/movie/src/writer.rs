@@ -1,0 +1,43 @@
+//! A format of movies, and a movie of one that is being written.
+
+use crate::error::MovieError;
+use crate::frame::MovieFrame;
+use crate::report::MovieReport;
+use crate::settings::MovieSettings;
+use crate::sound::MovieSound;
+use crate::target::MovieTarget;
+
+/// Begins to write a movie; only formats that have sound receive any.
+type BeginMovie =
+    fn(&MovieSettings, MovieTarget, Option<MovieSound>) -> Result<Box<dyn MovieWriter>, MovieError>;
+
+/// A format of movies.
+#[derive(Clone, Copy, Debug)]
+pub struct MovieFormat {
+    /// Name for the command line.
+    pub name: &'static str,
+    /// Title for the user.
+    pub title: &'static str,
+    /// Extensions of file names, lower case.
+    pub extensions: &'static [&'static str],
+    /// Whether the format keeps alpha; frames are put over black otherwise.
+    pub has_alpha: bool,
+    /// Whether the movie can have sound.
+    pub has_sound: bool,
+    /// Whether each frame is a file of its own.
+    pub is_sequence: bool,
+    /// Whether the movie can go to a stream.
+    pub can_stream: bool,
+    /// Largest width and height in pixels.
+    pub side: u32,
+    pub(crate) begin: BeginMovie,
+}
+
+/// A movie of one format in the middle of being written.
+pub(crate) trait MovieWriter {
+    /// Writes the next frame, which has the size of the movie. After an error, [`Self::end`] still completes the movie with the frames before.
+    fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError>;
+
+    /// Writes the rest.
+    fn end(self: Box<Self>) -> Result<MovieReport, MovieError>;
+}

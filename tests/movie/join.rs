@@ -1,0 +1,186 @@
+//! Parts of an MP4 that are encoded apart are joined to the movie that one pass writes.
+
+use crate::frames::{disc, noise, rate, write, write_disc};
+use crate::judge::{ffmpeg, probe};
+use dragonfly_kit::counting::peak;
+use dragonfly_kit::folder::Folder;
+use dragonfly_kit::mutate::Mutator;
+use dragonfly_kit::random::{Random, seed};
+use dragonfly_movie::{GROUP, MovieSettings, MovieTarget, join_movies, movie_parts};
+use std::path::PathBuf;
+
+const SIZE: [u32; 2] = [48, 32];
+
+fn settings() -> MovieSettings {
+    MovieSettings { tag: "duel 3".to_owned(), ..MovieSettings::new(SIZE, rate("24000/1001")) }
+}
+
+/// Writes the parts of a movie of `count` frames. Returns their paths.
+fn parts(folder: &Folder, count: u64, length: u64, settings: &MovieSettings) -> Vec<PathBuf> {
+    let write = |(first, count): (u64, u64)| {
+        let path = folder.join(&format!("part {first}.mp4"));
+        write_disc("mp4", &MovieSettings { first, ..settings.clone() }, &path, count, false);
+        path
+    };
+    movie_parts(count, length).into_iter().map(write).collect()
+}
+
+fn join(parts: &[PathBuf], folder: &Folder) -> Result<Vec<u8>, String> {
+    let path = folder.join("joined.mp4");
+    join_movies(parts, MovieTarget::path(&path), None).map_err(|error| error.to_string())?;
+    Ok(std::fs::read(path).unwrap())
+}
+
+#[test]
+fn parts_cover_every_frame_once_and_begin_at_groups() {
+    for (frames, length) in [(0, 1), (1, 0), (193, 48), (200, 50), (96, 96), (1000, u64::MAX)] {
+        let parts = movie_parts(frames, length);
+        let mut next = 0;
+        for (first, count) in parts {
+            assert_eq!((first, first % GROUP), (next, 0));
+            assert!(count > 0);
+            next += count;
+        }
+        assert_eq!(next, frames);
+    }
+}
+
+#[test]
+fn parts_of_random_lengths_are_joined_in_any_order_to_the_bytes_of_one_pass() {
+    let folder = Folder::new("join");
+    let seed = seed(31_007);
+    let mut random = Random::new(seed);
+    let count = 2 * GROUP + 1 + random.below(3 * GROUP as usize) as u64;
+    let one = folder.join("one.mp4");
+    // Pictures that have nothing in common at some of the borders.
+    let frames: Vec<Vec<u8>> = (0..count)
+        .map(|number| if random.below(9) == 0 { noise(SIZE, &mut random) } else { disc(SIZE, number, false) })
+        .collect();
+    write("mp4", &settings(), MovieTarget::path(&one), frames.clone()).unwrap();
+    let wanted = std::fs::read(&one).unwrap();
+    for round in 0..6 {
+        // Parts of several groups each, of different lengths.
+        let mut paths = Vec::new();
+        let mut first = 0;
+        while first < count {
+            let length = (GROUP * (1 + random.below(3) as u64)).min(count - first);
+            let path = folder.join(&format!("{first:06}.mp4"));
+            let part = frames[first as usize..(first + length) as usize].to_vec();
+            write("mp4", &MovieSettings { first, ..settings() }, MovieTarget::path(&path), part).unwrap();
+            paths.insert(random.below(paths.len() + 1), path);
+            first += length;
+        }
+        let joined = join(&paths, &folder).unwrap();
+        assert!(
+            joined == wanted,
+            "seed {seed}, round {round}: {} parts of {count} frames differ",
+            paths.len()
+        );
+    }
+    if ffmpeg() {
+        assert_eq!(probe(&folder.join("joined.mp4"), "v:0")["nb_read_frames"], count.to_string());
+    }
+}
+
+#[test]
+fn a_joined_part_is_joined_again() {
+    let folder = Folder::new("join-again");
+    let all = parts(&folder, 5 * GROUP, GROUP, &settings());
+    let wanted = join(&all, &folder).unwrap();
+    let middle = folder.join("middle.mp4");
+    join_movies(&all[1..4], MovieTarget::path(&middle), None).unwrap();
+    let joined = join(&[all[4].clone(), middle, all[0].clone()], &folder).unwrap();
+    assert!(joined == wanted);
+}
+
+#[test]
+fn parts_that_do_not_belong_together_are_refused_by_name() {
+    let folder = Folder::new("join-refused");
+    let all = parts(&folder, 3 * GROUP - 5, GROUP, &settings());
+    let other = |name: &str, settings: MovieSettings, count| {
+        let path = folder.join(name);
+        write_disc("mp4", &settings, &path, count, false);
+        path
+    };
+    let second = MovieSettings { first: GROUP, ..settings() };
+    let short = other("short.mp4", settings(), 5);
+    let cases = [
+        (
+            vec![all[0].clone(), all[2].clone()],
+            "part 96.mp4: it begins at frame 96, and the frames from 48 on are missing",
+        ),
+        (
+            vec![all[0].clone(), all[1].clone(), all[1].clone()],
+            "part 48.mp4: it begins at frame 48, which is in another part",
+        ),
+        (vec![all[1].clone(), short], "part 48.mp4: it begins at frame 48, and the frames from 5 on"),
+        (
+            vec![all[0].clone(), other("tag.mp4", MovieSettings { tag: String::new(), ..second.clone() }, 5)],
+            "tag.mp4: it is a part of another movie",
+        ),
+        (
+            vec![all[0].clone(), other("qp.mp4", MovieSettings { coarseness: 30, ..second.clone() }, 5)],
+            "qp.mp4: it is a part of another movie",
+        ),
+        (
+            vec![all[0].clone(), other("size.mp4", MovieSettings { size: [64, 32], ..second.clone() }, 5)],
+            "size.mp4: its pictures have another size",
+        ),
+        (
+            vec![all[0].clone(), other("rate.mp4", MovieSettings { rate: rate("24"), ..second.clone() }, 5)],
+            "rate.mp4: it has another number of frames",
+        ),
+        (vec![all[0].clone(), folder.join("none.mp4")], "none.mp4: "),
+        (vec![], "no frames"),
+    ];
+    for (parts, words) in cases {
+        let error = join(&parts, &folder).unwrap_err();
+        assert!(error.contains(words), "{error}");
+        assert!(!folder.join("joined.mp4").exists(), "{words}");
+    }
+}
+
+#[test]
+fn a_damaged_part_is_an_error_or_a_movie() {
+    let folder = Folder::new("join-damage");
+    let all = parts(&folder, GROUP + 3, GROUP, &settings());
+    let first = vec![std::fs::read(&all[0]).unwrap()];
+    let seed = seed(5_551);
+    let mut mutator =
+        Mutator::new(seed, &[b"moov", b"stsz", b"stco", b"stsc", b"udta", b"\xff\xff\xff\xff", b"\0\0\0\0"]);
+    let mut joined = 0;
+    for number in 0..1_500 {
+        std::fs::write(&all[0], mutator.mutant(&first)).unwrap();
+        match join(&all, &folder) {
+            Ok(_) => joined += 1,
+            Err(error) => assert!(
+                error.contains("part 0.mp4") || error.contains("part 48.mp4"),
+                "seed {seed}, {number}: {error}"
+            ),
+        }
+    }
+    assert!(joined > 0, "seed {seed}");
+}
+
+#[test]
+fn a_part_whose_tables_claim_large_frames_is_refused_without_the_memory_for_them() {
+    let folder = Folder::new("join-large");
+    let all = parts(&folder, 2 * GROUP, GROUP, &settings());
+    let bytes = std::fs::read(&all[0]).unwrap();
+    let table = bytes.windows(4).position(|kind| kind == b"stsz").unwrap();
+    // The claimed size of the first frame, and of the file.
+    for (size, length, words) in [
+        (200 << 20, bytes.len() as u64, "the file ends before frame 0"),
+        (u32::MAX, bytes.len() as u64, "frame 0 has 4294967295 bytes"),
+        (300 << 20, 1 << 30, "frame 0 has 314572800 bytes"),
+    ] {
+        let mut damaged = bytes.clone();
+        damaged[table + 16..table + 20].copy_from_slice(&size.to_be_bytes());
+        std::fs::write(&all[0], damaged).unwrap();
+        std::fs::OpenOptions::new().write(true).open(&all[0]).unwrap().set_len(length).unwrap();
+        let (memory, joined) = peak(|| join(&all, &folder));
+        let error = joined.unwrap_err();
+        assert!(error.contains(words), "{error}");
+        assert!(memory < 8 << 20, "{memory} bytes for a frame of {size}");
+    }
+}

@@ -1,0 +1,18 @@
+//! Promises of the movie crate: other programs decode the movies to the frames that were given.
+
+mod animations;
+mod broken;
+mod frames;
+#[cfg(feature = "h264")]
+mod join;
+mod judge;
+mod memory;
+#[cfg(feature = "h264")]
+mod mp4;
+mod sequences;
+#[cfg(feature = "h264")]
+mod sound;
+mod stream;
+
+#[global_allocator]
+static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;
