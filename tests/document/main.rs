@@ -32,6 +32,7 @@ mod old_defaults;
 mod old_journals;
 mod pose_library;
 mod project_faults;
+mod project_moved;
 mod project_saves;
 mod project_shared;
 mod projects;

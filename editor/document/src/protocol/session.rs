@@ -5,7 +5,7 @@ use super::{ProtocolCommand, ProtocolRequest};
 use crate::open::Open;
 use crate::save_job::{FailedWrite, SaveTarget, prepare};
 use crate::writing::Overwrite;
-use crate::{Change, Editable, FaultInjection, OpenedModel};
+use crate::{Cancel, Change, Editable, FaultInjection, OpenedModel};
 use dragonfly_anim::format::{ChangeReport, SavePlan};
 use dragonfly_store::Autosave;
 use serde_json::{Value, json};
@@ -132,7 +132,8 @@ impl Session {
         };
         let now = Instant::now();
         let input = self.open.begin_saving(target, role, overwrite, None, FaultInjection::default(), now)?;
-        let mut prepared = match prepare(input) {
+        let cancel = Cancel::default();
+        let mut prepared = match prepare(input, &cancel) {
             Ok(prepared) => prepared,
             Err(reason) => {
                 self.open.save_failed(None);
@@ -141,16 +142,19 @@ impl Session {
         };
         self.open.record_saving(&mut prepared, now);
         let (changes, lost) = (changes(prepared.changes()), prepared.lost().to_vec());
-        let written = match prepared.write() {
+        let written = match prepared.write(&cancel) {
             Ok(written) => written,
             Err(FailedWrite { reason, partly }) => {
                 self.open.save_failed(partly);
                 return Err(reason.to_string());
             }
         };
-        let files = written.saved.files.clone();
+        let (files, notices) = (written.saved.files.clone(), written.saved.notices.clone());
         self.open.end_save(written, None, now);
         let mut answer = json!({"written": files, "changes": changes});
+        if !notices.is_empty() {
+            answer["notices"] = json!(notices);
+        }
         if !lost.is_empty() {
             answer["lost"] = json!(lost);
         }
