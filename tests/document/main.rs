@@ -46,6 +46,7 @@ mod save_in_background;
 mod save_kept_edits;
 mod save_rewritten;
 mod scene_answers;
+mod scene_files;
 mod scene_includes;
 mod scene_models;
 mod scene_models_kept;

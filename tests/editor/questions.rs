@@ -3,13 +3,15 @@
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::dialogs::{
-    ChangedQuestion, ExistsQuestion, FindQuestion, OutdatedQuestion, PlaceQuestion, PlanQuestion, Question,
-    RecoverQuestion, RewriteQuestion, UnfitQuestion, UnsavedQuestion,
+    ChangedQuestion, CopyQuestion, ExistsQuestion, FindQuestion, MissingQuestion,
+    OutdatedQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion, RewriteQuestion, UnfitQuestion,
+    UnsavedQuestion,
 };
+use dragonfly::panels::dropped_files::{FileUse, WantedFiles};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{
-    Decision, DocumentMessage, HistoryView, Offer, OutdatedEdits, OutdatedEditsChoice, SaveOrder, SaveTo,
-    Source, Then,
+    Decision, DocumentMessage, HistoryView, MissingFile, Offer, OutdatedEdits, OutdatedEditsChoice,
+    SaveOrder, SaveTo, SceneFile, SceneFileKind, SceneFiles, Source, Then,
 };
 use dragonfly_kit::document::fixture;
 use dragonfly_store::{DocumentFileState, FileState, JournalOwner, OwnerStatus, Readability, Recoverable};
@@ -117,7 +119,25 @@ fn questions() -> Vec<(&'static str, Question)> {
         ("where_copy", place(true)),
         ("unfit", UnfitQuestion { lines: lines(2) }.into()),
         ("outdated", OutdatedQuestion { edits: outdated() }.into()),
+        ("copy", CopyQuestion { wanted: wanted(&["knight.gltf"]) }.into()),
+        ("copy_many", CopyQuestion { wanted: wanted(&["knight.gltf"; 40]) }.into()),
+        ("missing", MissingQuestion { missing: missing() }.into()),
     ]
+}
+
+/// Models outside of the folder of a scene, each with two files.
+pub(crate) fn wanted(names: &[&str]) -> Box<WantedFiles> {
+    let file = |name: &&str| SceneFile {
+        beside: vec!["knight.bin".to_owned(), "knight.png".to_owned()],
+        ..SceneFile::new(SceneFileKind::Model, PathBuf::from("/home/mara/downloads").join(name))
+    };
+    let files = SceneFiles { folder: "/home/mara/duel".into(), files: names.iter().map(file).collect() };
+    Box::new(WantedFiles { files, others: Vec::new(), used: FileUse::Role })
+}
+
+pub(crate) fn missing() -> MissingFile {
+    let [name, file] = ["knight", "models/knight.glb"].map(str::to_owned);
+    MissingFile { kind: SceneFileKind::Model, name, file }
 }
 
 fn outdated() -> OutdatedEdits {
@@ -199,6 +219,10 @@ fn enter_chooses_the_default_button() {
             }))),
             "plan" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(None)))),
             "exists" | "plan_long" | "unfit" | "outdated" => None,
+            "copy" => {
+                assert_eq!(*effects, [Effect::CopyFiles(wanted(&["knight.gltf"]))]);
+                continue;
+            }
             "where_copy" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder {
                 // The fixture was opened by a relative path, and the field has a whole one.
                 to: SaveTo::Copy(std::path::absolute("Fox copy.glb").unwrap()),

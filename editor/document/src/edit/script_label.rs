@@ -66,6 +66,7 @@ script_labels! {
     DrawLine = "Draw line",
     EraseLine = "Erase line",
     EditModel = "Edit model",
+    FindFiles = "Find files",
 }
 
 impl ScriptLabel {

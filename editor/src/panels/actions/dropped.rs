@@ -3,8 +3,8 @@
 use super::scene_gizmo::joined;
 use super::scene_probe::surface_at;
 use super::scene_text::{add_all, gesture};
-use super::{execute, scene, scene_ground, scene_probe};
-use crate::panels::dropped_files::{DropPlace, DroppedModels, UnknownModels};
+use super::{execute, scene_files, scene_ground, scene_probe};
+use crate::panels::dropped_files::{DropPlace, DroppedModels, FileUse, UnknownModels};
 use crate::panels::request::{Effect, Request};
 use crate::panels::scene::{NewThing, new_thing_splices, with_new_sound};
 use crate::panels::status::MessageSeverity;
@@ -13,7 +13,7 @@ use dragonfly_anim::stage::gesture::{GestureScene, attach_splices, spliced_text}
 use dragonfly_anim::stage::line::points_text;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::edit::ScriptLabel;
-use dragonfly_document::{SceneModel, Source, formats, is_scene};
+use dragonfly_document::{SceneFileKind, SceneModel, Source, formats, is_scene};
 use dragonfly_sound::is_sound_file;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
@@ -47,17 +47,20 @@ fn dropped_on_scene(workspace: &mut Workspace, mut files: Vec<PathBuf>) -> Optio
         let names: Vec<String> = others.iter().map(|file| name(file)).collect();
         workspace.say(MessageSeverity::Warning, format!("Not added to the scene: {}", names.join(", ")));
     }
-    add(workspace, &models, &sounds)
+    let models = models.into_iter().map(|file| (SceneFileKind::Model, file));
+    let sounds = sounds.into_iter().map(|file| (SceneFileKind::Sound, file));
+    let place = place_under_pointer(workspace);
+    scene_files::want(workspace, models.chain(sounds).collect(), FileUse::Add(place))
 }
 
-/// Adds files to the scene: sounds begin at the playhead. Models that the scene does not know yet are looked at first.
-fn add(workspace: &mut Workspace, models: &[PathBuf], sounds: &[PathBuf]) -> Option<Effect> {
-    let [models, sounds] = [models, sounds].map(|files| -> Vec<(PathBuf, String)> {
-        let named = |file: &PathBuf| Some((file.clone(), scene::name_in_scene(workspace, file)?));
-        files.iter().filter_map(named).collect()
-    });
-    let place = place_under_pointer(workspace);
-    let sounds: Vec<String> = sounds.into_iter().map(|(_, name)| name).collect();
+/// Adds files of the folder of the scene to it: models with their names, and the names of sounds, which begin at the playhead. Models that the scene
+/// does not know yet are looked at first.
+pub(super) fn add(
+    workspace: &mut Workspace,
+    models: Vec<(PathBuf, String)>,
+    sounds: Vec<String>,
+    place: DropPlace,
+) -> Option<Effect> {
     let known: Option<Vec<(String, bool)>> =
         models.iter().map(|(_, name)| Some((name.clone(), is_figure(workspace, name)?))).collect();
     match known {

@@ -6,10 +6,12 @@
 
 mod ask;
 mod changed;
+mod copy;
 mod exists;
 mod find;
 mod kind;
 mod line_list;
+mod missing;
 mod outdated;
 mod place;
 mod plan;
@@ -64,4 +66,6 @@ questions! {
     Place => place::PlaceQuestion,
     Unfit => unfit::UnfitQuestion,
     Outdated => outdated::OutdatedQuestion,
+    Copy => copy::CopyQuestion,
+    Missing => missing::MissingQuestion,
 }
