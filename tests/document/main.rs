@@ -49,6 +49,7 @@ mod scene_answers;
 mod scene_files;
 mod scene_includes;
 mod scene_models;
+mod scene_models_changed;
 mod scene_models_kept;
 mod scene_models_later;
 mod scenes;

@@ -3,7 +3,7 @@
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::dialogs::{
-    ChangedQuestion, CopyQuestion, ExistsQuestion, FindQuestion, MissingQuestion,
+    ChangedModelsQuestion, ChangedQuestion, CopyQuestion, ExistsQuestion, FindQuestion, MissingQuestion,
     OutdatedQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion, RewriteQuestion, UnfitQuestion,
     UnsavedQuestion,
 };
@@ -119,6 +119,7 @@ fn questions() -> Vec<(&'static str, Question)> {
         ("where_copy", place(true)),
         ("unfit", UnfitQuestion { lines: lines(2) }.into()),
         ("outdated", OutdatedQuestion { edits: outdated() }.into()),
+        ("changed_models", ChangedModelsQuestion { edits: vec![outdated(), outdated()] }.into()),
         ("copy", CopyQuestion { wanted: wanted(&["knight.gltf"]) }.into()),
         ("copy_many", CopyQuestion { wanted: wanted(&["knight.gltf"; 40]) }.into()),
         ("missing", MissingQuestion { missing: missing() }.into()),
@@ -218,7 +219,7 @@ fn enter_chooses_the_default_button() {
                 ..SaveOrder::own(None)
             }))),
             "plan" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(None)))),
-            "exists" | "plan_long" | "unfit" | "outdated" => None,
+            "exists" | "plan_long" | "unfit" | "outdated" | "changed_models" => None,
             "copy" => {
                 assert_eq!(*effects, [Effect::CopyFiles(wanted(&["knight.gltf"]))]);
                 continue;
@@ -310,6 +311,28 @@ fn outdated_edits_of_a_model_are_applied_or_removed_as_the_user_chooses() {
         harness.get_by_label(button).click();
         harness.run_steps(4);
         let message = choice.map(|choice| DocumentMessage::DecideOutdated(outdated(), choice));
+        let wanted: Vec<Effect> =
+            message.into_iter().map(|message| Effect::File(FileAction::Send(message))).collect();
+        assert_eq!(harness.state().effects, wanted, "{button}");
+        assert_eq!(harness.state().state.read().question(), None);
+    }
+}
+
+#[test]
+fn edits_of_all_changed_models_are_applied_or_removed_as_the_user_chooses() {
+    for (button, choice) in [
+        ("Apply the edits again", Some(OutdatedEditsChoice::Apply)),
+        ("Remove the edits", Some(OutdatedEditsChoice::Remove)),
+        ("Later", None),
+    ] {
+        let edits = vec![outdated(), OutdatedEdits { model: "bear".to_owned(), ..outdated() }];
+        let bench = bench(ChangedModelsQuestion { edits: edits.clone() }.into());
+        let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        assert!(harness.query_by_label("2 models changed since their edits were made").is_some());
+        harness.get_by_label(button).click();
+        harness.run_steps(4);
+        let message = choice.map(|choice| DocumentMessage::DecideAllOutdated(edits.clone(), choice));
         let wanted: Vec<Effect> =
             message.into_iter().map(|message| Effect::File(FileAction::Send(message))).collect();
         assert_eq!(harness.state().effects, wanted, "{button}");

@@ -8,7 +8,9 @@ use dragonfly::panels::dialogs::Question;
 use dragonfly::panels::dropped_files::WantedFiles;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, FileChoice, Request};
-use dragonfly_document::{Change, SceneFileKind, SceneView, View};
+use dragonfly_document::{
+    Change, DocumentMessage, OutdatedEdits, OutdatedEditsChoice, SceneFileKind, SceneView, View,
+};
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_runtime::Address;
 use egui::Key;
@@ -209,4 +211,16 @@ fn the_note_of_a_missing_model_and_of_a_missing_sound_offers_to_find_it() {
     window.run_steps(3);
     let finding = window.state().state.read().scene_editing.finding().cloned().expect("a file");
     assert_eq!(finding.name, "old/cat.glb");
+}
+
+#[test]
+fn the_menu_of_a_thing_decides_about_the_edits_of_its_model() {
+    let edits = OutdatedEdits { model: "fox".to_owned(), title: "Fox.glb".to_owned(), hash: 7 };
+    let mut window = scene(FOXES).window();
+    let request = Request::Scene(SceneRequest::Settle(edits.clone(), OutdatedEditsChoice::Remove));
+    let effect = window.state_mut().state.execute(request);
+    let Some(Effect::File(dragonfly::panels::FileAction::Send(message))) = effect else {
+        panic!("{effect:?}")
+    };
+    assert_eq!(message, DocumentMessage::DecideAllOutdated(vec![edits], OutdatedEditsChoice::Remove));
 }

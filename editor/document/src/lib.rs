@@ -19,6 +19,7 @@ mod beside;
 mod bone_map;
 pub mod bones;
 mod cancel;
+mod changed_models;
 mod checked_models;
 mod checked_sounds;
 mod checking;

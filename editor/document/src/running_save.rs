@@ -63,6 +63,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::EditModel(_)
         | DocumentMessage::ShowScene
         | DocumentMessage::DecideOutdated(..)
+        | DocumentMessage::DecideAllOutdated(..)
         | DocumentMessage::Reload
         | DocumentMessage::Revert
         | DocumentMessage::Quit

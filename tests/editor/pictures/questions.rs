@@ -5,7 +5,7 @@ use super::states::Fullness;
 use crate::questions::{missing as missing_file, offer, wanted};
 use crate::workbench::Workbench;
 use dragonfly::panels::dialogs::{
-    ChangedQuestion, CopyQuestion, ExistsQuestion, FindQuestion, MissingQuestion,
+    ChangedModelsQuestion, ChangedQuestion, CopyQuestion, ExistsQuestion, FindQuestion, MissingQuestion,
     OutdatedQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion, RewriteQuestion, UnfitQuestion,
     UnsavedQuestion,
 };
@@ -68,6 +68,8 @@ const TABLE: &[QuestionRow] = &[
     ("rewrite", "crowded", || RewriteQuestion { order: SaveOrder::own(Some(Then::Quit)) }.into()),
     ("outdated", "typical", || outdated("Fox.glb")),
     ("outdated", "crowded", || outdated(&long("A fox"))),
+    ("changedmodels", "typical", || changed_models(3)),
+    ("changedmodels", "crowded", || changed_models(400)),
     ("copy", "typical", || CopyQuestion { wanted: wanted(&["knight.gltf"]) }.into()),
     ("copy", "crowded", || CopyQuestion { wanted: wanted(&["knight.gltf"; 60]) }.into()),
     ("missing", "typical", || MissingQuestion { missing: missing_file() }.into()),
@@ -85,6 +87,12 @@ fn exists(path: &str) -> Question {
 fn outdated(title: &str) -> Question {
     let edits = OutdatedEdits { model: "fox".to_owned(), title: title.to_owned(), hash: 7 };
     OutdatedQuestion { edits }.into()
+}
+
+fn changed_models(count: u64) -> Question {
+    let edits =
+        |hash: u64| OutdatedEdits { model: format!("fox-{hash}"), title: format!("Fox {hash}.glb"), hash };
+    ChangedModelsQuestion { edits: (1..=count).map(edits).collect() }.into()
 }
 
 fn plan(lines: Arc<[String]>, order: Option<SaveOrder>) -> Question {

@@ -67,6 +67,8 @@ script_labels! {
     EraseLine = "Erase line",
     EditModel = "Edit model",
     FindFiles = "Find files",
+    ApplyEdits = "Apply edits again",
+    RemoveEdits = "Remove edits",
 }
 
 impl ScriptLabel {

@@ -54,6 +54,10 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
         SceneRequest::Through(through) => scene_camera::look_through(workspace, through),
         SceneRequest::EditModel(thing) => return edit_model(workspace, &thing),
+        SceneRequest::Settle(edits, choice) => {
+            let message = DocumentMessage::DecideAllOutdated(vec![edits], choice);
+            return Some(Effect::File(FileAction::Send(message)));
+        }
         SceneRequest::Find(missing) => return scene_files::find(workspace, missing),
     }
     None

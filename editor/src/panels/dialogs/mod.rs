@@ -6,6 +6,7 @@
 
 mod ask;
 mod changed;
+mod changed_models;
 mod copy;
 mod exists;
 mod find;
@@ -66,6 +67,7 @@ questions! {
     Place => place::PlaceQuestion,
     Unfit => unfit::UnfitQuestion,
     Outdated => outdated::OutdatedQuestion,
+    ChangedModels => changed_models::ChangedModelsQuestion,
     Copy => copy::CopyQuestion,
     Missing => missing::MissingQuestion,
 }

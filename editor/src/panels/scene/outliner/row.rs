@@ -12,12 +12,18 @@ use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::stage::script::ScriptElement;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{SceneModel, SceneView};
+use dragonfly_document::{OutdatedEdits, OutdatedEditsChoice, SceneModel, SceneView};
 use egui::accesskit::Role;
 use egui::{Rect, Response, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
 /// Width of the button that finds a missing model, points.
 const FIND: f32 = 44.0;
+
+/// The entries for edits of a model that were made for another file.
+const SETTLED: [(&str, OutdatedEditsChoice); 2] = [
+    ("Apply the edits again", OutdatedEditsChoice::Apply),
+    ("Remove the edits", OutdatedEditsChoice::Remove),
+];
 
 /// Draws a row. Returns whether it was clicked.
 pub(super) fn show(
@@ -149,6 +155,13 @@ fn find_request(thing: &ScriptElement, scene: &SceneView) -> Option<Request> {
     }
 }
 
+/// Returns the edits of the model of a thing that were made for another file; `None` where there are none.
+fn outdated<'a>(thing: &ScriptElement, scene: &'a SceneView) -> Option<&'a OutdatedEdits> {
+    let project = scene.project.as_ref()?;
+    let id = project.model_id(thing.value("model")?)?;
+    scene.outdated.iter().find(|edits| project.model_id(&edits.model) == Some(id))
+}
+
 fn menu(
     response: &Response,
     context: &PanelContext<'_>,
@@ -163,6 +176,15 @@ fn menu(
         {
             requests.push(find);
             ui.close();
+        }
+        if let Some(edits) = outdated(thing, scene) {
+            for (title, choice) in SETTLED {
+                if ui.add(egui::Button::new(title).frame_when_inactive(false)).clicked() {
+                    requests.push(Request::Scene(SceneRequest::Settle(edits.clone(), choice)));
+                    ui.close();
+                }
+            }
+            ui.separator();
         }
         if matches!(kind, "role" | "prop")
             && ui.add(egui::Button::new("Edit takes and bones").frame_when_inactive(false)).clicked()
