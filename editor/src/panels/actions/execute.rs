@@ -3,8 +3,8 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 use super::{
-    bones, clipboard, drags, dropped, files, framing, keys, layers, locks, look, playback, scene,
-    scene_files, scope, sets, takes,
+    added_files, bones, clipboard, drags, dropped, files, framing, keys, layers, locks, look, playback,
+    scene, scene_files, scope, sets, takes,
 };
 use crate::panels::commands;
 use crate::panels::dropped_files::FileUse;
@@ -119,7 +119,7 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Sets(action) => sets::perform(workspace, &action),
         Request::Scene(request) => return scene::perform(workspace, request),
         Request::Dropped(files) => return dropped::dropped(workspace, files),
-        Request::DroppedModels(models) => return dropped::add_known(workspace, &models),
+        Request::DroppedModels(models) => return added_files::add_known(workspace, &models),
         Request::AddLayerFrom(take) => return layers::add_from(workspace, take),
         Request::AddRole(path) => {
             return scene_files::want(workspace, vec![(SceneFileKind::Model, path)], FileUse::Role);

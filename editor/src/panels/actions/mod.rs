@@ -3,6 +3,7 @@
 //! [`execute::execute`] is the only function that dispatches requests; a command of the table calls the function that its
 //! row names.
 
+mod added_files;
 pub(super) mod baking;
 pub(super) mod bones;
 pub(super) mod clipboard;

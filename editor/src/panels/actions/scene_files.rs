@@ -1,7 +1,7 @@
 //! Files that the scene gets: dropped or chosen ones, and those that were missing. What is outside of its folder is copied into it first.
 
 use super::scene_text::{add, step};
-use super::{dropped, files};
+use super::{added_files, files};
 use crate::panels::dialogs::{CopyQuestion, MissingQuestion};
 use crate::panels::dropped_files::{FileUse, WantedFiles};
 use crate::panels::file_choice::FileChoice;
@@ -89,7 +89,7 @@ fn use_files(workspace: &mut Workspace, wanted: &WantedFiles) -> Option<Effect> 
     match used {
         FileUse::Add(place) => {
             let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
-            dropped::add(workspace, models, named(SceneFileKind::Sound).collect(), place.clone())
+            added_files::add(workspace, models, named(SceneFileKind::Sound).collect(), place.clone())
         }
         FileUse::Role => add(workspace, &NewThing::Role(named(SceneFileKind::Model).next()?)),
         FileUse::Prop => add(workspace, &NewThing::Prop(named(SceneFileKind::Model).next()?)),
