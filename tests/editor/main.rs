@@ -91,6 +91,7 @@ mod scene_commands;
 mod scene_documents;
 mod scene_drop;
 mod scene_examples;
+mod scene_files;
 mod scene_focus;
 mod scene_gizmo;
 mod scene_ground;

@@ -3,13 +3,15 @@
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::dialogs::{
-    ChangedQuestion, ExistsQuestion, FindQuestion, OutdatedQuestion, PlaceQuestion, PlanQuestion, Question,
-    RecoverQuestion, RewriteQuestion, UnfitQuestion, UnsavedQuestion,
+    ChangedModelsQuestion, ChangedQuestion, CopyQuestion, ExistsQuestion, FindQuestion, MissingQuestion,
+    OutdatedQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion, RewriteQuestion, UnfitQuestion,
+    UnsavedQuestion,
 };
+use dragonfly::panels::dropped_files::{FileUse, WantedFiles};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{
-    Decision, DocumentMessage, HistoryView, Offer, OutdatedEdits, OutdatedEditsChoice, SaveOrder, SaveTo,
-    Source, Then,
+    Decision, DocumentMessage, HistoryView, MissingFile, Offer, OutdatedEdits, OutdatedEditsChoice,
+    SaveOrder, SaveTo, SceneFile, SceneFileKind, SceneFiles, Source, Then,
 };
 use dragonfly_kit::document::fixture;
 use dragonfly_store::{DocumentFileState, FileState, JournalOwner, OwnerStatus, Readability, Recoverable};
@@ -117,7 +119,26 @@ fn questions() -> Vec<(&'static str, Question)> {
         ("where_copy", place(true)),
         ("unfit", UnfitQuestion { lines: lines(2) }.into()),
         ("outdated", OutdatedQuestion { edits: outdated() }.into()),
+        ("changed_models", ChangedModelsQuestion { edits: vec![outdated(), outdated()] }.into()),
+        ("copy", CopyQuestion { wanted: wanted(&["knight.gltf"]) }.into()),
+        ("copy_many", CopyQuestion { wanted: wanted(&["knight.gltf"; 40]) }.into()),
+        ("missing", MissingQuestion { missing: missing() }.into()),
     ]
+}
+
+/// Models outside of the folder of a scene, each with two files.
+pub(crate) fn wanted(names: &[&str]) -> Box<WantedFiles> {
+    let file = |name: &&str| SceneFile {
+        beside: vec!["knight.bin".to_owned(), "knight.png".to_owned()],
+        ..SceneFile::new(SceneFileKind::Model, PathBuf::from("/home/mara/downloads").join(name))
+    };
+    let files = SceneFiles { folder: "/home/mara/duel".into(), files: names.iter().map(file).collect() };
+    Box::new(WantedFiles { files, others: Vec::new(), used: FileUse::Role })
+}
+
+pub(crate) fn missing() -> MissingFile {
+    let [name, file] = ["knight", "models/knight.glb"].map(str::to_owned);
+    MissingFile { kind: SceneFileKind::Model, name, file }
 }
 
 fn outdated() -> OutdatedEdits {
@@ -198,7 +219,11 @@ fn enter_chooses_the_default_button() {
                 ..SaveOrder::own(None)
             }))),
             "plan" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(None)))),
-            "exists" | "plan_long" | "unfit" | "outdated" => None,
+            "exists" | "plan_long" | "unfit" | "outdated" | "changed_models" => None,
+            "copy" => {
+                assert_eq!(*effects, [Effect::CopyFiles(wanted(&["knight.gltf"]))]);
+                continue;
+            }
             "where_copy" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder {
                 // The fixture was opened by a relative path, and the field has a whole one.
                 to: SaveTo::Copy(std::path::absolute("Fox copy.glb").unwrap()),
@@ -286,6 +311,28 @@ fn outdated_edits_of_a_model_are_applied_or_removed_as_the_user_chooses() {
         harness.get_by_label(button).click();
         harness.run_steps(4);
         let message = choice.map(|choice| DocumentMessage::DecideOutdated(outdated(), choice));
+        let wanted: Vec<Effect> =
+            message.into_iter().map(|message| Effect::File(FileAction::Send(message))).collect();
+        assert_eq!(harness.state().effects, wanted, "{button}");
+        assert_eq!(harness.state().state.read().question(), None);
+    }
+}
+
+#[test]
+fn edits_of_all_changed_models_are_applied_or_removed_as_the_user_chooses() {
+    for (button, choice) in [
+        ("Apply the edits again", Some(OutdatedEditsChoice::Apply)),
+        ("Remove the edits", Some(OutdatedEditsChoice::Remove)),
+        ("Later", None),
+    ] {
+        let edits = vec![outdated(), OutdatedEdits { model: "bear".to_owned(), ..outdated() }];
+        let bench = bench(ChangedModelsQuestion { edits: edits.clone() }.into());
+        let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        assert!(harness.query_by_label("2 models changed since their edits were made").is_some());
+        harness.get_by_label(button).click();
+        harness.run_steps(4);
+        let message = choice.map(|choice| DocumentMessage::DecideAllOutdated(edits.clone(), choice));
         let wanted: Vec<Effect> =
             message.into_iter().map(|message| Effect::File(FileAction::Send(message))).collect();
         assert_eq!(harness.state().effects, wanted, "{button}");

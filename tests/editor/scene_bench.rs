@@ -72,6 +72,13 @@ impl SceneStage {
         Self { assets, models: Arc::new(models), live: LiveStage::default() }
     }
 
+    /// Makes models missing, by the names with which scripts mean them.
+    fn miss(&mut self, names: &[&str]) {
+        self.assets.allow_missing_models();
+        let missing = |name: &&str| ((*name).to_owned(), SceneModel::Missing("does not exist".to_owned()));
+        Arc::make_mut(&mut self.models).extend(names.iter().map(missing));
+    }
+
     /// Returns the view of a newer text, as the document's thread publishes it.
     pub(crate) fn view(&mut self, texts: &TextFiles) -> Arc<SceneView> {
         let script = texts.called("scene.xml").expect("a script");
@@ -129,8 +136,20 @@ pub(crate) fn shared(project: &str, script: &str, end: &str) -> Workbench {
     open(files.map(|(name, text)| TextFile { name: name.into(), text: text.into() }).into_iter().collect())
 }
 
+/// Opens a script in the user interface, some of whose models are missing.
+pub(crate) fn scene_without(text: &str, missing: &[&str]) -> Workbench {
+    open_without(TextFiles::one("scene.xml", text), missing)
+}
+
 fn open(texts: TextFiles) -> Workbench {
+    open_without(texts, &[])
+}
+
+fn open_without(texts: TextFiles, missing: &[&str]) -> Workbench {
     let mut stage = SceneStage::new();
+    if !missing.is_empty() {
+        stage.miss(missing);
+    }
     let skeleton = dragonfly_anim::data::Skeleton { bones: Vec::new() };
     let empty = fixture::view("scene.xml", skeleton, &[]);
     let adapter = ModelAdapter::of(&empty.loaded.model).with_texts(texts.clone());

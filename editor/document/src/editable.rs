@@ -9,7 +9,7 @@ use super::source::{LoadError, Source, file_name};
 use super::text_source::{ReadTexts, is_scene, read_texts};
 use super::unused;
 use super::writing::{Overwrite, Writing};
-use super::{Cancel, Folder, LoadedModel, import, read_file};
+use super::{Cancel, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::ModelData;
@@ -48,9 +48,6 @@ pub struct Editable {
     /// Index of each take among the animations of the file, once it was saved.
     pub(super) places: Option<HashMap<TakeId, usize>>,
 }
-
-/// Path and contents of a file to write.
-pub type WrittenFile = (PathBuf, Vec<u8>);
 
 impl Editable {
     /// Opens `source` to edit it without decoding textures.
@@ -212,61 +209,9 @@ impl Editable {
         }
     }
 
-    /// Returns all files that saving as `output` writes, in that order. The file itself is last, so that it never refers to a file that does
-    /// not exist. Files that the model needs are copied along to another folder.
-    ///
-    /// # Errors
-    ///
-    /// The path and the reason why it is impossible.
-    pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<WrittenFile>, String> {
-        let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
-        let folder = folder_of(output);
-        // A mistyped name makes no folder. Only folders of the files next to the model are created.
-        if !folder.is_dir() {
-            return Err(format!("{}: its folder does not exist", output.display()));
-        }
-        let mut files: Vec<WrittenFile> =
-            beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
-        let along = self.taken_along(folder)?;
-        files.extend(
-            along
-                .into_iter()
-                .filter(|(path, _)| !files.iter().any(|(own, _)| own == path))
-                .collect::<Vec<_>>(),
-        );
-        files.push((output.to_path_buf(), main.bytes.clone()));
-        Ok(files)
-    }
-
     /// Returns whether the model needs other files next to it after the save of `plan`.
     pub fn needs_others(&self, plan: &SavePlan) -> bool {
         plan.files.len() > 1 || !self.content.neighbors().is_empty()
-    }
-
-    /// Returns the files that the model needs and that are missing in `folder`.
-    fn taken_along(&self, folder: &Path) -> Result<Vec<WrittenFile>, String> {
-        let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
-        if is_same_path(from, folder) {
-            return Ok(Vec::new());
-        }
-        let door = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
-        let mut found = Vec::new();
-        for name in self.content.neighbors() {
-            let target = folder.join(&name);
-            // A file that cannot be read was a warning when the model was opened.
-            let Ok(bytes) = door.read(&name, FILE_BYTES) else { continue };
-            match read_file(&target, FILE_BYTES) {
-                Ok(there) if there == bytes => {}
-                _ if target.exists() => {
-                    return Err(format!(
-                        "{}: a file of this name exists and is not the one that the model needs; choose another folder",
-                        target.display()
-                    ));
-                }
-                _ => found.push((target, bytes)),
-            }
-        }
-        Ok(found)
     }
 
     /// Saves as `output`. The opened file is overwritten only if no other program has changed it. Later saves are relative to what was
@@ -298,9 +243,11 @@ impl Editable {
     ) -> Result<Vec<PathBuf>, String> {
         let own = self.is_own(output);
         let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
-        let how = Writing { disk, overwrite, replaces: &[], versions: None, becomes: own };
-        let files = self.files(plan, output)?;
-        let saved = self.write(adapter, files, how).map_err(|error| error.to_string())?;
+        let cancel = Cancel::default();
+        let files = self.files(plan, output, &cancel)?;
+        let is_elsewhere = files.is_elsewhere;
+        let how = Writing { disk, overwrite, replaces: &[], versions: None, becomes: own, is_elsewhere };
+        let saved = self.write(adapter, files, how, &cancel).map_err(|error| error.to_string())?;
         Ok(saved.files)
     }
 

@@ -2,21 +2,24 @@
 
 use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
-use super::editable::{Editable, WrittenFile, is_same_path, make_folder, opened, places};
+use super::editable::{Editable, is_same_path, make_folder, opened, places};
 use super::edited_content::EditedContent;
+use super::save_files::{SaveFiles, WrittenFile};
 use super::source::file_name;
-use super::unused;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, UnsavedFile, Writing, save_file};
+use super::{Cancel, unused};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::buffer_of_save;
 use dragonfly_anim::root_bone::BoneShift;
-use dragonfly_store::{ExpectedFile, FileState, RealFiles, SaveOptions, folder_of, remove_unfinished};
+use dragonfly_store::{
+    ExpectedFile, FileStamp, FileState, RealFiles, SaveOptions, folder_of, remove_unfinished,
+};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl Editable {
     /// Writes `files`, which [`Self::files`] returned, and makes later saves relative to them where they become the file of the
-    /// document.
+    /// document. Copies of other files come first.
     ///
     /// # Errors
     ///
@@ -25,13 +28,24 @@ impl Editable {
     pub(super) fn write(
         &mut self,
         adapter: &ModelAdapter,
-        mut files: Vec<WrittenFile>,
+        files: SaveFiles,
         how: Writing<'_>,
+        cancel: &Cancel,
     ) -> Result<FilesSaved, SaveFailure> {
+        let SaveFiles { copied, written: mut files, kept, .. } = files;
         let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
         self.check_expected(&files, &main, &how)?;
         let mut beside = BesideStamps::default();
-        let mut saved = FilesSaved::default();
+        let mut saved = FilesSaved { notices: copied.notices().collect(), ..FilesSaved::default() };
+        copied.write(cancel, |path, _, done| {
+            saved.notices.extend(done.notices);
+            saved.files.push(path.to_path_buf());
+        })?;
+        for path in &kept {
+            if let (Ok(path), Ok(stamp)) = (path.canonicalize(), FileStamp::take(&RealFiles, path)) {
+                beside.add(path, stamp);
+            }
+        }
         for (path, bytes) in &files {
             // A text of a project has versions as the project has.
             let versions = how.versions.filter(|_| matches!(self.content, EditedContent::Texts(_)));
@@ -80,12 +94,6 @@ impl Editable {
         saved.files.push(main.clone());
         saved.notices.extend(done.notices);
         saved.bytes = bytes.len();
-        let is_elsewhere =
-            self.path.as_deref().is_some_and(|path| !is_same_path(folder_of(path), folder_of(&main)));
-        if is_elsewhere && matches!(self.content, EditedContent::Texts(_)) {
-            let notice = "its models were not copied to the new folder; `dragonfly pack` collects all files of a scene";
-            saved.notices.push(notice.to_owned());
-        }
         let name = file_name(&main);
         remove_unfinished(&RealFiles, folder_of(&main), &|other| buffer_of_save(other, &name).is_some());
         if how.becomes {
@@ -111,6 +119,8 @@ impl Editable {
         let is_text = matches!(self.content, EditedContent::Texts(_));
         let is_decided = || how.replaces.iter().any(|other| is_same_path(other, path));
         match self.beside.of(path) {
+            // There was none when the files were listed.
+            _ if how.is_elsewhere && is_text => ExpectedFile::Nothing,
             _ if how.overwrite != Overwrite::AsRead => ExpectedFile::Anything,
             // The user decided about a file that the document had not read.
             Some(stamp) => ExpectedFile::Stamp(stamp),

@@ -3,13 +3,14 @@
 //! A model has its own history and journal while it is edited. When the scene is shown again, the edits that are not saved into the model
 //! become one step of the project, and are saved with it ([`super::project_edits`]).
 
+use super::changed_models::ChangedModelNews;
 use super::edit::Edit;
 use super::job::JobNews;
 use super::message::DocumentReply;
 use super::open::{Change, Open};
 use super::open_scene::OpenScene;
 use super::owner::Document;
-use super::project_edits::{EditedModel, kept_in, made_for};
+use super::project_edits::{EditedModel, kept_in, settled};
 use super::project_models::ProjectModels;
 use super::scene_includes::SceneIncludeNews;
 use super::scene_model_source::{KeptEdits, SceneModelSource};
@@ -263,6 +264,41 @@ impl Document {
         give_edits(scene, &edited, now)
     }
 
+    /// Returns the scene that is open or waits.
+    fn shown_or_waiting_scene(&mut self) -> Option<&mut Open> {
+        match &mut self.scene {
+            Some(waiting) => Some(&mut waiting.open),
+            None => self.open.as_mut(),
+        }
+    }
+
+    /// Carries out the user's decision about edits of several models in one step of the scene.
+    pub(super) fn decide_all_outdated(
+        &mut self,
+        outdated: &[OutdatedEdits],
+        choice: OutdatedEditsChoice,
+        now: Instant,
+    ) {
+        let done = match self.shown_or_waiting_scene() {
+            Some(scene) if scene.scene.is_some() => settle(scene, outdated, choice, now),
+            _ => Err("the scene is not open any more".to_owned()),
+        };
+        match done {
+            Ok(()) => self.changed(),
+            Err(reason) => self.reply(DocumentReply::Refused(sentence(&reason))),
+        }
+    }
+
+    /// Tells the user about models whose files changed since the edits that the project keeps were made.
+    pub(super) fn report_changed_models(&mut self) {
+        let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
+        let ChangedModelNews { outdated, unfit } = scene.map(OpenScene::changed_models).unwrap_or_default();
+        if !outdated.is_empty() {
+            self.reply(DocumentReply::ChangedModels(outdated));
+        }
+        unfit.into_iter().for_each(|text| self.reply(DocumentReply::Warning(sentence(&text))));
+    }
+
     /// Carries out the user's decision about edits that a project keeps for another file of a model, and then opens the model to edit it.
     pub(super) fn decide_outdated(
         &mut self,
@@ -270,12 +306,10 @@ impl Document {
         choice: OutdatedEditsChoice,
         now: Instant,
     ) {
-        let scene = match &mut self.scene {
-            Some(waiting) => Some(&mut waiting.open),
-            None => self.open.as_mut(),
-        };
-        let done = match scene {
-            Some(scene) if scene.scene.is_some() => settle(scene, outdated, choice, now),
+        let done = match self.shown_or_waiting_scene() {
+            Some(scene) if scene.scene.is_some() => {
+                settle(scene, std::slice::from_ref(outdated), choice, now)
+            }
             _ => Err("the scene is not open any more".to_owned()),
         };
         if let Err(reason) = done {
@@ -322,22 +356,17 @@ fn give_edits(scene: &mut Open, model: &EditedModel<'_>, now: Instant) -> Result
     done.map(|_| ()).map_err(|error| error.to_string())
 }
 
-/// Carries out the choice of the user about edits that were made for another file.
+/// Carries out the choice of the user about edits that were made for other files, in one step.
 fn settle(
     scene: &mut Open,
-    outdated: &OutdatedEdits,
+    outdated: &[OutdatedEdits],
     choice: OutdatedEditsChoice,
     now: Instant,
 ) -> Result<(), String> {
-    let texts = scene.edited.adapter().texts();
-    let edit = match choice {
-        OutdatedEditsChoice::Apply => made_for(texts, &outdated.model, outdated.hash)?,
-        OutdatedEditsChoice::Remove => {
-            let (name, hash) = (&*outdated.model, Some(outdated.hash));
-            // The project has the model and its edits, so that neither gets a new name.
-            kept_in(texts, &EditedModel { name, file: name, hash, edits: &[] }, |_| false)?
-        }
-    };
-    let Some(edit) = edit else { return Ok(()) };
-    scene.change(Change::Edit(edit.into(), None), now).map(|_| ()).map_err(|error| error.to_string())
+    let Some(edit) = settled(scene.edited.adapter().texts(), outdated, choice)? else { return Ok(()) };
+    scene.change(Change::Edit(edit.into(), None), now).map_err(|error| error.to_string())?;
+    if let (Some(scene), OutdatedEditsChoice::Apply) = (&mut scene.scene, choice) {
+        scene.await_fit(outdated.iter().map(|edits| edits.model.clone()));
+    }
+    Ok(())
 }

@@ -50,6 +50,8 @@ pub enum DocumentMessage {
     ShowScene,
     /// The user's decision about edits of a model that were made for another file. The model is opened as by [`Self::EditModel`] then.
     DecideOutdated(OutdatedEdits, OutdatedEditsChoice),
+    /// The user's decision about edits of several models that were made for other files: one step of the scene, which is shown.
+    DecideAllOutdated(Vec<OutdatedEdits>, OutdatedEditsChoice),
     /// Shows another script of the open project, by the name of its file.
     ShowScript(String),
     /// The lengths in seconds of sounds of the open scene, which were read to be shown: the plan has no other way to know when they end. `None`
@@ -119,6 +121,9 @@ pub enum DocumentReply {
     Unsaved(Then),
     /// A model was not opened to edit it, because the edits that its project keeps were made for another file: the user decides.
     OutdatedEdits(OutdatedEdits),
+    /// The models of the scene were read, and those of these edits have other files than those for which they were made: the user decides
+    /// about all of them. Sent once for each model while a scene is open.
+    ChangedModels(Vec<OutdatedEdits>),
     /// Nothing is unsaved: the program may end.
     MayQuit,
     /// Another program changed or deleted the file.

@@ -2,6 +2,7 @@
 
 use super::Folder;
 use super::adapter::{TextFile, TextFiles};
+use super::changed_models::{ChangedModelNews, ChangedModels};
 use super::job::JobNews;
 use super::project_models::ProjectModels;
 use super::project_notes::ProjectNotes;
@@ -42,6 +43,7 @@ pub(super) struct OpenScene {
     chosen: Option<String>,
     /// The texts that were planned last; `None` where models changed since then.
     planned: Option<TextFiles>,
+    changed_models: ChangedModels,
     view: Arc<SceneView>,
 }
 
@@ -62,6 +64,7 @@ impl OpenScene {
             includes: SceneIncludes::default(),
             chosen: None,
             planned: None,
+            changed_models: ChangedModels::default(),
             view: Arc::default(),
         }
     }
@@ -104,7 +107,9 @@ impl OpenScene {
         self.models.want(wanted, document);
         let (errors, shared) = self.separated(self.live.errors().to_vec());
         let (notes, shared_notes) = self.separated(self.notes());
-        let project_notes = shared_notes.into_iter().chain(self.project_notes(models.as_ref()));
+        let of_models = self.project_notes(models.as_ref());
+        let outdated = of_models.outdated.as_slice().into();
+        let project_notes = shared_notes.into_iter().chain(of_models.all());
         self.view = Arc::new(SceneView {
             text,
             name,
@@ -113,6 +118,7 @@ impl OpenScene {
             project_errors: self.project_errors.as_slice().into(),
             shared_errors: shared.into(),
             project_notes: project_notes.collect(),
+            outdated,
             lines: self.lines.lines.clone(),
             line_errors: Arc::clone(&self.lines.errors),
             includes: context.files,
@@ -261,9 +267,21 @@ impl OpenScene {
 
     /// Returns what the user should know about the models of the project that the script names: files that changed, edits that are not
     /// applied.
-    fn project_notes(&self, models: Option<&ProjectModels<'_>>) -> Vec<ScriptError> {
-        let Some((project, models)) = self.project.as_ref().zip(models) else { return Vec::new() };
-        ProjectNotes::of(project, models, self.models.read()).all()
+    fn project_notes(&self, models: Option<&ProjectModels<'_>>) -> ProjectNotes {
+        let Some((project, models)) = self.project.as_ref().zip(models) else {
+            return ProjectNotes::default();
+        };
+        ProjectNotes::of(project, models, self.models.read())
+    }
+
+    /// Returns what is new for the user once all models were read: see [`ChangedModels::news`].
+    pub(super) fn changed_models(&mut self) -> ChangedModelNews {
+        self.changed_models.news(&self.models, &self.view.outdated)
+    }
+
+    /// Notes that the edits of models were applied again: those that do not fit are named once the models were read.
+    pub(super) fn await_fit(&mut self, models: impl IntoIterator<Item = String>) {
+        self.changed_models.await_fit(models);
     }
 }
 

@@ -421,6 +421,7 @@ impl Document {
         }
         if let Some(open) = self.open.as_mut().filter(|_| changed) {
             open.update_scene(&self.own);
+            self.report_changed_models();
         }
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
         let waiting_scene = self.scene.as_ref().map(|scene| scene.open.file.title.as_str().into());

@@ -1,19 +1,12 @@
 //! Collects everything that a project, or the script of a scene, needs into one archive, and unpacks it again.
 
-use super::adapter::{TextFile, TextFiles};
 use super::archive::{ArchiveError, ArchivedFile, read_archive, write_archive};
-use super::import::{self, ImportDoor};
-use super::scene_includes::read_includes;
+use super::needed_files::NeededFiles;
 use super::source::{LoadError, file_name};
-use super::text_source::{ReadTexts, is_project, read_texts};
+use super::text_source::{is_project, read_texts};
 use super::{Cancel, FileAccessError, Folder, make_folder, read_file};
-use dragonfly_anim::format::{AssetError, AssetFs, Conventions};
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::{ScriptContext, ScriptElement, StageScript};
 use dragonfly_store::{ExpectedFile, RealFiles, SaveOptions, save};
-use std::cell::RefCell;
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -58,17 +51,17 @@ pub fn pack(path: &Path, cancel: &Cancel) -> Result<Vec<u8>, PackError> {
     let read = read_texts(path)?;
     let unread = |reason| LoadError::File { path: path.to_owned(), reason };
     let folder = Folder::of(path).map_err(unread)?;
-    let mut needed = NeededFiles { folder: &folder, cancel, names: BTreeSet::new(), reasons: Vec::new() };
-    needed.of_texts(&read, is_project(path));
+    let needed = NeededFiles::of(&read.texts, is_project(path), &folder, cancel);
     if cancel.is_cancelled() {
         return Err(LoadError::Cancelled.into());
     }
-    let NeededFiles { names, mut reasons, .. } = needed;
+    let mut reasons = read.warnings;
+    reasons.extend(needed.reasons);
     let mut files: Vec<ArchivedFile> = Vec::new();
     for file in read.texts.list() {
         files.push(ArchivedFile { name: file.name.to_string(), bytes: file.text.as_bytes().to_vec() });
     }
-    for name in names {
+    for name in needed.names {
         if files.iter().any(|file| file.name == name) {
             continue;
         }
@@ -104,98 +97,4 @@ pub fn unpack(path: &Path, folder: &Path) -> Result<Vec<PathBuf>, PackError> {
         save(&RealFiles, path, &file.bytes, &options).map_err(|error| PackError::Write(error.to_string()))?;
     }
     Ok(paths)
-}
-
-/// The files that a project needs, while they are found.
-struct NeededFiles<'a> {
-    folder: &'a Folder,
-    cancel: &'a Cancel,
-    names: BTreeSet<String>,
-    reasons: Vec<String>,
-}
-
-impl NeededFiles<'_> {
-    fn of_texts(&mut self, read: &ReadTexts, is_project: bool) {
-        self.reasons.extend(read.warnings.iter().cloned());
-        let Some((main, scripts)) = read.texts.list().split_first() else { return };
-        if !is_project {
-            return self.of_script(main, &read.texts, None);
-        }
-        match StageProject::read(main.text.clone()) {
-            Ok(project) => {
-                let own: Vec<String> = project.files().into_iter().map(str::to_owned).collect();
-                for model in project.tree().elements().iter().filter_map(|element| model_of(element)) {
-                    self.of_model(project.source_of(model));
-                }
-                self.names.extend(own);
-                for file in scripts.iter().filter(|file| project.scripts().any(|name| *name == *file.name)) {
-                    self.of_script(file, &read.texts, Some(&project));
-                }
-            }
-            Err(errors) => self.reasons.extend(errors.iter().map(|error| error.in_file(&main.name))),
-        }
-    }
-
-    fn of_script(&mut self, file: &TextFile, texts: &TextFiles, project: Option<&StageProject>) {
-        let TextFile { name, text } = file;
-        let files = read_includes((name, text), texts, Ok(self.folder), self.cancel);
-        let context = ScriptContext { name: name.clone(), project: project.cloned(), files };
-        match StageScript::read_in(text.clone(), &context) {
-            Ok(script) => {
-                self.names.extend(script.tree().included_files().into_iter().map(str::to_owned));
-                for element in script.tree().elements() {
-                    if let Some(model) = element.value("model") {
-                        self.of_model(project.map_or(model, |project| project.source_of(model)));
-                    }
-                    if let Some(source) = element.value("src").filter(|_| element.row.name != "include") {
-                        self.names.insert(source.to_owned());
-                    }
-                }
-            }
-            Err(errors) => self.reasons.extend(errors.iter().map(|error| error.in_file(name))),
-        }
-    }
-
-    /// Adds a model and the files that it needs.
-    fn of_model(&mut self, name: &str) {
-        if !self.names.insert(name.to_owned()) {
-            return;
-        }
-        let inside = name.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let found = self.folder.path_of(name).and_then(|path| {
-            let bytes = self.folder.read(name, FILE_BYTES)?;
-            Ok((Folder::of(&path)?, path, bytes))
-        });
-        // A missing model is found when it is packed.
-        let Ok((beside, path, bytes)) = found else { return };
-        let door = RecordingDoor { folder: beside, names: RefCell::default() };
-        let files = ImportDoor { files: &door, conventions: Conventions::default() };
-        if let Err(error) = import::read(&file_name(&path), &bytes, files, &|_| {}, self.cancel) {
-            self.reasons.push(format!("{name}: {error}"));
-        }
-        let below = |own: String| if inside.is_empty() { own } else { format!("{inside}/{own}") };
-        self.names.extend(door.names.into_inner().into_iter().map(below));
-    }
-}
-
-/// Returns the model that an element of a project names by its file or its id, or is.
-fn model_of(element: &ScriptElement) -> Option<&str> {
-    match element.row.name {
-        "model" => element.value("src"),
-        _ => element.value("model"),
-    }
-}
-
-/// The folder of a model, which notes the names of the files that were read.
-struct RecordingDoor {
-    folder: Folder,
-    names: RefCell<BTreeSet<String>>,
-}
-
-impl AssetFs for RecordingDoor {
-    fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
-        let bytes = self.folder.read(name, limit)?;
-        self.names.borrow_mut().insert(name.to_owned());
-        Ok(bytes)
-    }
 }

@@ -2,6 +2,7 @@
 
 use super::adapter::{TextFile, TextFiles};
 use super::edit::{Edit, EditScript, ScriptLabel, ScriptSplice, TextRef};
+use super::waiting_scene::{OutdatedEdits, OutdatedEditsChoice};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, set_attribute};
@@ -68,12 +69,50 @@ pub(super) fn kept_in(
 /// # Errors
 ///
 /// The reason why the project cannot state it.
-pub(super) fn made_for(texts: &TextFiles, name: &str, hash: u64) -> Result<Option<EditScript>, String> {
+fn made_for(texts: &TextFiles, name: &str, hash: u64) -> Result<Option<EditScript>, String> {
     let (main, project) = project_of(texts)?;
     let missing = || format!("the project has no edits of {name}");
     let (id, file) = project.model_id(name).zip(project.edits_of(name)).ok_or_else(missing)?;
     let text = with_edits(&main.text, id, file, Some(hash)).ok_or("the text has no place for the hash")?;
     Ok(EditScript::between(&main.text, &text, Some(LABEL)))
+}
+
+/// Returns the edit of the texts of a project that carries out the choice of the user about edits that were made for other files; `None` where
+/// it changes nothing.
+///
+/// # Errors
+///
+/// The reason why the project cannot have it.
+pub(super) fn settled(
+    texts: &TextFiles,
+    outdated: &[OutdatedEdits],
+    choice: OutdatedEditsChoice,
+) -> Result<Option<EditScript>, String> {
+    let mut new = texts.clone();
+    for edits in outdated {
+        let edit = match choice {
+            OutdatedEditsChoice::Apply => made_for(&new, &edits.model, edits.hash)?,
+            OutdatedEditsChoice::Remove => {
+                let (name, hash) = (&*edits.model, Some(edits.hash));
+                // The project has the model and its edits, so that neither gets a new name.
+                kept_in(&new, &EditedModel { name, file: name, hash, edits: &[] }, |_| false)?
+            }
+        };
+        if let Some(edit) = edit {
+            edit.apply_to(&mut new);
+        }
+    }
+    let label = match choice {
+        OutdatedEditsChoice::Apply => ScriptLabel::ApplyEdits,
+        OutdatedEditsChoice::Remove => ScriptLabel::RemoveEdits,
+    };
+    let part = |(index, (old, new)): (usize, (&TextFile, &TextFile))| {
+        let edit = EditScript::between(&old.text, &new.text, Some(label))?;
+        Some(EditScript { text: (index > 0).then_some(TextRef::Index(index)), ..edit })
+    };
+    let mut parts = texts.list().iter().zip(new.list()).enumerate().filter_map(part);
+    let Some(first) = parts.next() else { return Ok(None) };
+    Ok(Some(EditScript { also: parts.collect(), ..first }))
 }
 
 /// Returns the main text and its project.

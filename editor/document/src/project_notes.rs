@@ -2,12 +2,14 @@
 
 use super::project_models::ProjectModels;
 use super::scene_model_source::{ReadFileState, SceneModelSource};
+use super::waiting_scene::OutdatedEdits;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptError;
 use std::collections::HashSet;
 
 /// The help for a model whose edits were made for another file.
-const OTHER_FILE: &str = "open the model to choose whether they are applied to it or removed";
+const OTHER_FILE: &str =
+    "apply the edits again or remove them: in the menu of what has the model, or when the model is opened";
 
 /// Notes for the user about the models of a project, each list in the order of its text.
 #[derive(Debug, Default)]
@@ -16,6 +18,8 @@ pub(super) struct ProjectNotes {
     pub(super) changed: Vec<ScriptError>,
     /// Edits that are not applied to their models.
     pub(super) unfit: Vec<ScriptError>,
+    /// Those of them that were made for other files.
+    pub(super) outdated: Vec<OutdatedEdits>,
 }
 
 impl ProjectNotes {
@@ -40,6 +44,10 @@ impl ProjectNotes {
                     format!("the file of \"{id}\" changed since it was used last: its hash is {now}");
                 let help = "look at its takes; it is noted with the next edits of the model";
                 notes.changed.push(project.tree().error(model.value_range("hash"), message, help));
+            }
+            if is_other {
+                let title = source.file.rsplit('/').next().unwrap_or(&source.file).to_owned();
+                notes.outdated.push(OutdatedEdits { model: name.to_owned(), title, hash: file.hash });
             }
             let Some(unfit) = &file.unfit else { continue };
             let (range, help) = match (is_other, models.edits_of(model)) {

@@ -41,6 +41,9 @@ impl Document {
             DocumentMessage::EditModel(name) => self.edit_model(&name),
             DocumentMessage::ShowScene => self.show_scene(now),
             DocumentMessage::DecideOutdated(edits, choice) => self.decide_outdated(&edits, choice, now),
+            DocumentMessage::DecideAllOutdated(edits, choice) => {
+                self.decide_all_outdated(&edits, choice, now);
+            }
             DocumentMessage::ShowScript(name) => self.show_script(&name),
             DocumentMessage::SoundsRead(lengths) => self.sounds_read(&lengths),
             DocumentMessage::LookAtFile => self.look_at_file(),

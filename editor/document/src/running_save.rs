@@ -5,7 +5,7 @@ use super::message::{DocumentMessage, DocumentReply};
 use super::owner::Document;
 use super::save_job::{PreparedSave, SaveInput, WrittenSave, prepare};
 use super::saving::{FailedSave, NotSaved, SaveOrder, SavedFile};
-use super::{Change, LoadError, OpenedModel};
+use super::{Cancel, Change, LoadError, OpenedModel};
 use dragonfly_runtime::{Address, Job};
 use std::time::Instant;
 
@@ -63,6 +63,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::EditModel(_)
         | DocumentMessage::ShowScene
         | DocumentMessage::DecideOutdated(..)
+        | DocumentMessage::DecideAllOutdated(..)
         | DocumentMessage::Reload
         | DocumentMessage::Revert
         | DocumentMessage::Quit
@@ -79,16 +80,16 @@ impl RunningSave {
         ticket: u64,
         order: SaveOrder,
         failed: fn(NotSaved) -> SaveStage,
-        work: impl FnOnce() -> SaveStage + Send + 'static,
+        work: impl FnOnce(&Cancel) -> SaveStage + Send + 'static,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
         let (ended, steps) = flume::bounded(1);
         let panicked = ended.clone();
         let job = Job::start(
             document,
             "save",
-            move |_| {
+            move |job| {
                 // Fails only if the document has ended without waiting for the save.
-                let _ = ended.send(work());
+                let _ = ended.send(work(job.cancel_flag()));
                 JobNews::SaveStep(ticket)
             },
             move |panic| {
@@ -112,7 +113,9 @@ impl RunningSave {
         order: SaveOrder,
         input: SaveInput,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
-        let work = move || SaveStage::Prepared(prepare(input).map(Box::new).map_err(NotSaved::Failed));
+        let work = move |cancel: &Cancel| {
+            SaveStage::Prepared(prepare(input, cancel).map(Box::new).map_err(NotSaved::Failed))
+        };
         Self::start(document, ticket, order, |reason| SaveStage::Prepared(Err(reason)), work)
     }
 
@@ -122,7 +125,9 @@ impl RunningSave {
         order: SaveOrder,
         prepared: Box<PreparedSave>,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
-        let work = move || SaveStage::Written(prepared.write().map(Box::new).map_err(FailedSave::from));
+        let work = move |cancel: &Cancel| {
+            SaveStage::Written(prepared.write(cancel).map(Box::new).map_err(FailedSave::from))
+        };
         Self::start(document, ticket, order, |reason| SaveStage::Written(Err(reason.into())), work)
     }
 }
@@ -153,7 +158,10 @@ impl Document {
         let title = open.file.title.clone();
         match open.begin_save(&order, self.scene.as_ref(), autosave.as_ref(), faults, now) {
             Ok(input) => {
-                if large {
+                if input.copies_along() {
+                    let text = format!("Saving {title} with the files that it needs…");
+                    self.reply(DocumentReply::Notice(text));
+                } else if large {
                     self.reply(DocumentReply::Notice(format!("Saving {title}…")));
                 }
                 let ticket = self.next_ticket();
@@ -205,7 +213,7 @@ impl Document {
                 // The document was lost, and with it the journal.
                 let Some(open) = &mut self.open else { return };
                 open.record_saving(&mut prepared, now);
-                prepared.write().map(Box::new).map_err(FailedSave::from)
+                prepared.write(&Cancel::default()).map(Box::new).map_err(FailedSave::from)
             }
             Ok(SaveStage::Prepared(Err(reason))) => Err(reason.into()),
             Ok(SaveStage::Written(written)) => written,

@@ -5,10 +5,12 @@
 //! 3. [`PreparedSave::write`] writes the file.
 //! 4. The document records the end. Edits made since the beginning are unsaved.
 
-use super::editable::{Editable, WrittenFile};
+use super::Cancel;
+use super::editable::Editable;
 use super::fault::{FaultInjection, FaultPoint};
 use super::history::Edited;
 use super::recorded::{EditsOrigin, Snapshot};
+use super::save_files::SaveFiles;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use dragonfly_anim::data::Take;
 use dragonfly_anim::format::ChangeReport;
@@ -52,8 +54,7 @@ pub(super) struct SaveInput {
 #[derive(Debug)]
 pub(super) struct PreparedSave {
     input: SaveInput,
-    /// All files, the model last.
-    files: Vec<WrittenFile>,
+    files: SaveFiles,
     changes: Option<ChangeReport>,
     /// Content of the model that the format does not store, one sentence each.
     lost: Vec<String>,
@@ -87,12 +88,12 @@ pub(super) struct WrittenSave {
 /// Computes the files that a save writes, and writes the successor of the journal.
 ///
 /// # Errors
-/// The reason why it cannot be saved. Nothing was written.
-pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, String> {
+/// The reason why it cannot be saved, or it was cancelled. Nothing was written.
+pub(super) fn prepare(mut input: SaveInput, cancel: &Cancel) -> Result<PreparedSave, String> {
     input.faults.reach(FaultPoint::PrepareSave);
     let plan = input.editable.plan(input.edited.adapter()).map_err(|error| error.to_string())?;
-    let files = input.editable.files(&plan, &input.output)?;
-    let bytes = files.last().map_or(&[][..], |(_, bytes)| bytes);
+    let files = input.editable.files(&plan, &input.output, cancel)?;
+    let bytes = files.written.last().map_or(&[][..], |(_, bytes)| bytes);
     let is_main_written = !input.editable.keeps_main(&input.output, bytes, input.overwrite);
     let main = FileContents { size: bytes.len() as u64, hash: dragonfly_store::hash(bytes) };
     let main = Some(main).filter(|_| is_main_written);
@@ -108,6 +109,11 @@ pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, String> {
 }
 
 impl SaveInput {
+    /// Returns whether the files that a scene needs are copied along, which may take long.
+    pub(super) fn copies_along(&self) -> bool {
+        self.editable.format().is_none() && self.editable.is_elsewhere(&self.output)
+    }
+
     /// Returns the whole history as bytes for a journal.
     fn snapshot(&self) -> Result<Vec<u8>, String> {
         Snapshot::bytes(self.about.clone(), &self.edited, Some(&*self.base))
@@ -158,20 +164,22 @@ impl PreparedSave {
     ///
     /// # Errors
     /// The reason why it was not saved, and what was written before.
-    pub(super) fn write(self) -> Result<WrittenSave, FailedWrite> {
+    pub(super) fn write(self, cancel: &Cancel) -> Result<WrittenSave, FailedWrite> {
         let Self { mut input, files, lost, .. } = self;
         input.faults.reach(FaultPoint::WriteSave);
         let target = input.target;
         let versions = input.autosave.as_ref().map(Autosave::versions);
         let becomes = target != SaveTarget::Copy;
+        let is_elsewhere = files.is_elsewhere;
         let how = Writing {
             disk: &RealFiles,
             overwrite: input.overwrite,
             replaces: &input.replaces,
             versions,
             becomes,
+            is_elsewhere,
         };
-        let saved = match input.editable.write(input.edited.adapter(), files, how) {
+        let saved = match input.editable.write(input.edited.adapter(), files, how, cancel) {
             Ok(saved) => saved,
             Err(reason) => {
                 let partly = (target == SaveTarget::Own).then(|| Box::new(input.editable));

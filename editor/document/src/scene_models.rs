@@ -75,6 +75,11 @@ impl SceneModels {
         })
     }
 
+    /// Returns whether a model is being read.
+    pub(super) fn are_read_again(&self) -> bool {
+        !self.jobs.is_empty()
+    }
+
     /// Reads all models again, from another folder.
     pub(super) fn move_to(&mut self, folder: Result<Folder, String>) {
         self.folder = folder;

@@ -2,6 +2,7 @@
 
 use super::LoadedModel;
 use super::adapter::TextFiles;
+use super::waiting_scene::OutdatedEdits;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
@@ -27,6 +28,8 @@ pub struct SceneView {
     /// Notes for the user about the models of the project, in the order of its text: files that changed since their edits were
     /// made, edits that do not fit.
     pub project_notes: Arc<[ScriptError]>,
+    /// The edits that the project keeps and that are not applied, because the files of their models changed since they were made.
+    pub outdated: Arc<[OutdatedEdits]>,
     /// The drawn lines of a project, as they were in the last text of them without errors; `None` without such a file.
     pub lines: Option<Arc<DrawnLines>>,
     /// The errors of the newest text of the lines, in its order.

@@ -2,6 +2,7 @@
 
 use super::open::Open;
 use super::scene_model_source::SceneModelSource;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -29,7 +30,8 @@ pub struct OutdatedEdits {
 }
 
 /// The decision of the user about edits that were made for another file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum OutdatedEditsChoice {
     /// They are applied to the file as it is now.
     Apply,

@@ -28,6 +28,8 @@ pub(super) struct Writing<'a> {
     pub(super) versions: Option<&'a Versions>,
     /// Whether the written file becomes the file of the document.
     pub(super) becomes: bool,
+    /// Whether the files are in another folder than the document.
+    pub(super) is_elsewhere: bool,
 }
 
 /// The files that a save has written.

@@ -9,6 +9,7 @@ use super::interface_receiver::interface_address;
 use super::model_looker::{self, LookedModels};
 use super::options::Options;
 use super::reference_loader::ReferenceAnswer;
+use super::scene_files::{self, SceneFilesAnswer};
 use super::scene_maker::{self, SceneAnswer};
 use super::scene_sounds::SceneSoundAnswer;
 use super::sound_loader::SoundAnswer;
@@ -51,6 +52,7 @@ pub(super) struct Running {
     samples: Address<SamplesAnswer>,
     scenes: Address<SceneAnswer>,
     looked: Address<LookedModels>,
+    scene_files: Address<SceneFilesAnswer>,
     graphics_sync: GraphicsSync,
     /// Number of questions sent to the graphics thread.
     tickets: u64,
@@ -205,6 +207,16 @@ impl EditorRuntime {
                     interface.state.say(MessageSeverity::Error, format!("Nothing was added: {error}"));
                 }
             }
+            Effect::LookAtFiles(wanted) => {
+                if let Err(error) = scene_files::look(wanted, &running.scene_files) {
+                    interface.state.say(MessageSeverity::Error, format!("No file was read: {error}"));
+                }
+            }
+            Effect::CopyFiles(wanted) => {
+                if let Err(error) = scene_files::copy(wanted, &running.scene_files) {
+                    interface.state.say(MessageSeverity::Error, format!("Nothing was copied: {error}"));
+                }
+            }
             Effect::NewScene(model) => {
                 if let Err(error) = scene_maker::make(model, &running.scenes) {
                     interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
@@ -232,6 +244,7 @@ impl BaseRuntime for EditorRuntime {
         let samples = interface_address(main, shown, Interface::samples_answered);
         let scenes = interface_address(main, shown, scene_maker::made);
         let looked = interface_address(main, shown, model_looker::added);
+        let scene_files = interface_address(main, shown, scene_files::answered);
         let setup = self.setup();
         let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {
@@ -257,6 +270,7 @@ impl BaseRuntime for EditorRuntime {
             samples,
             scenes,
             looked,
+            scene_files,
             leaving: false,
             graphics_sync: GraphicsSync::default(),
             tickets: 0,

@@ -160,6 +160,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                 FileChoice::DemoScene => Request::DemoScene(path),
                 FileChoice::Role => Request::AddRole(path),
                 FileChoice::Prop => Request::AddProp(path),
+                FileChoice::MissingModel | FileChoice::MissingSound => Request::FileFound(path),
                 FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
                 FileChoice::MappedTakes => {
                     Request::ImportMapped(std::iter::once(path).chain(others).collect())
@@ -170,6 +171,10 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
         }
         (Purpose::Choose(choice), None) if quick => {
             interface.state.say(MessageSeverity::Warning, choice.no_dialog());
+            if matches!(choice, FileChoice::MissingModel | FileChoice::MissingSound) {
+                let effect = interface.state.execute(Request::TypeFoundFile);
+                interface.effects.extend(effect);
+            }
         }
         (Purpose::Choose(choice), None) if choice.filter().is_none() => {
             interface.state.say(MessageSeverity::Info, "No folder was chosen")

@@ -25,6 +25,7 @@ mod options;
 mod pointer_place;
 mod reference_loader;
 mod replies;
+pub mod scene_files;
 pub mod scene_maker;
 pub mod scene_sounds;
 pub mod scene_thumbnails;

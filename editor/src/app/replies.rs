@@ -4,7 +4,7 @@
 
 use super::interface::Interface;
 use crate::panels::dialogs::{
-    ChangedQuestion, OutdatedQuestion, PlanQuestion, UnfitQuestion, UnsavedQuestion,
+    ChangedModelsQuestion, ChangedQuestion, OutdatedQuestion, PlanQuestion, UnfitQuestion, UnsavedQuestion,
 };
 use crate::panels::open_model::Loading;
 use crate::panels::status::MessageSeverity;
@@ -66,6 +66,7 @@ pub(super) fn show(interface: &mut Interface, reply: DocumentReply) {
             state.set_loading(None);
             state.ask(OutdatedQuestion { edits }.into());
         }
+        DocumentReply::ChangedModels(edits) => state.ask(ChangedModelsQuestion { edits }.into()),
         DocumentReply::MayQuit => interface.effects.push(Effect::File(FileAction::QuitNow)),
         DocumentReply::FileChanged(file) => state.ask(ChangedQuestion { file, order: None }.into()),
         DocumentReply::Offers(offers) => state.ask_to_recover(offers),

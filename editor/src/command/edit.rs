@@ -9,7 +9,7 @@ use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::{EditError, ModelAdapter};
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
 use dragonfly_document::{
-    Cancel, Editable, Rebase, Rebased, UnfitEdit, check_extension, make_folder, read_file,
+    Cancel, Editable, Rebase, Rebased, SaveFiles, UnfitEdit, check_extension, make_folder, read_file,
 };
 use serde::Serialize;
 use std::io::Read;
@@ -250,7 +250,12 @@ pub(super) fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Resul
     }
     check_extension(output, &editable.ending()).map_err(Failure::Input)?;
     let mut written = Vec::new();
-    let files = editable.files(plan, output).map_err(Failure::Input)?;
+    let cancel = Cancel::default();
+    let SaveFiles { copied, written: files, .. } =
+        editable.files(plan, output, &cancel).map_err(Failure::Input)?;
+    copied.notices().for_each(|notice| tell(format_args!("{notice}")));
+    let copy = |path: &Path, bytes, _| written.push(Written { path: path.display().to_string(), bytes });
+    copied.write(&cancel, copy).map_err(Failure::Input)?;
     for (at, (path, bytes)) in files.iter().enumerate() {
         // The folder of the model, the last file, exists; folders of the files that it refers to are created.
         if at + 1 < files.len() {

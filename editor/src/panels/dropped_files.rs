@@ -1,5 +1,6 @@
-//! Files that were dropped onto a scene: what they are, and where.
+//! Files that a scene is to get: dropped onto it, chosen, or found in the place of missing ones.
 
+use dragonfly_document::{MissingFile, SceneFiles};
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -34,4 +35,28 @@ pub struct UnknownModels {
     pub place: DropPlace,
     /// The sounds as the script names them.
     pub sounds: Vec<String>,
+}
+
+/// The use of files that a scene gets.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileUse {
+    /// They were dropped at this place, and are added.
+    Add(DropPlace),
+    /// The model becomes a role.
+    Role,
+    /// The model becomes a prop.
+    Prop,
+    /// They are in the place of missing ones.
+    Find,
+}
+
+/// Files that a scene is to get, from anywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WantedFiles {
+    /// The files.
+    pub files: SceneFiles,
+    /// Other files that are missing, and may be next to the first one.
+    pub others: Vec<MissingFile>,
+    /// What they are for.
+    pub used: FileUse,
 }

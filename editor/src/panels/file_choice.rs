@@ -24,6 +24,10 @@ pub enum FileChoice {
     Role,
     /// The model of a new prop of the scene.
     Prop,
+    /// The file in place of a missing model of the scene.
+    MissingModel,
+    /// The file in place of a missing sound of the scene.
+    MissingSound,
     /// Files whose takes are imported with the map of the dialog for retargeting; several can be chosen.
     MappedTakes,
 }
@@ -40,6 +44,8 @@ impl FileChoice {
             Self::DemoScene => "Choose the folder of the new scene",
             Self::Role => "Choose the model of the role",
             Self::Prop => "Choose the model of the prop",
+            Self::MissingModel => "Find the missing model",
+            Self::MissingSound => "Find the missing sound",
             Self::Takes | Self::MappedTakes => "Import takes",
         }
     }
@@ -49,7 +55,7 @@ impl FileChoice {
         match self {
             Self::PoseFolder | Self::DemoScene => None,
             Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
-            Self::Sound => Some((
+            Self::Sound | Self::MissingSound => Some((
                 "Sounds",
                 SOUND_FORMATS.iter().flat_map(|format| format.extensions.iter().copied()).collect(),
             )),
@@ -57,6 +63,7 @@ impl FileChoice {
             | Self::NewScene
             | Self::Role
             | Self::Prop
+            | Self::MissingModel
             | Self::Takes
             | Self::MappedTakes => Some(("Models", formats().extensions())),
         }
@@ -67,7 +74,7 @@ impl FileChoice {
         match self {
             Self::PoseFolder => "This desktop has no dialog for choosing folders; type the path instead",
             Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
-            Self::Reference | Self::RetargetSource => {
+            Self::Reference | Self::RetargetSource | Self::MissingModel | Self::MissingSound => {
                 "This desktop has no dialog for choosing files; type the path instead"
             }
             Self::NewScene | Self::DemoScene => {

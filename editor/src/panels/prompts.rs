@@ -86,6 +86,11 @@ impl Prompts {
         );
     }
 
+    /// Removes the question where a missing file of the scene is: it was found.
+    pub(super) fn close_missing(&mut self) {
+        self.questions.retain(|(_, question)| !matches!(question, Question::Missing(_)));
+    }
+
     /// Removes the question that was answered.
     pub(super) fn pop(&mut self) {
         self.questions.pop_front();

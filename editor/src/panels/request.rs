@@ -6,7 +6,7 @@ use super::compared::CompareWith;
 use super::curves::given::GivenCurve;
 use super::curves::look::CurvesLook;
 use super::dialog_preview::DialogPreview;
-use super::dropped_files::{DroppedModels, UnknownModels};
+use super::dropped_files::{DroppedModels, UnknownModels, WantedFiles};
 use super::edit_scope::FalloffSettings;
 use super::file_choice::FileChoice;
 use super::keys::request::KeysRequest;
@@ -135,6 +135,12 @@ pub enum Request {
     Dropped(Vec<PathBuf>),
     /// Adds models that were dropped onto the scene, once it is known what they are.
     DroppedModels(Box<DroppedModels>),
+    /// Copies the files that are outside of the folder of the scene into it, and uses them.
+    CopyFiles(Box<WantedFiles>),
+    /// Uses this file in place of the missing one of [`SceneRequest::Find`].
+    FileFound(PathBuf),
+    /// Asks for the path of the missing file, which is typed.
+    TypeFoundFile,
     /// Adds a layer with the keys of the take with this index over the take that is shown.
     AddLayerFrom(usize),
     /// Adds this model to the scene as a role.
@@ -200,6 +206,10 @@ pub enum Effect {
     DemoScene(PathBuf),
     /// Reads these models, then executes [`Request::DroppedModels`].
     LookAtModels(Box<UnknownModels>),
+    /// Looks where these files are: those outside of the folder of the scene are copied into it if the user agrees.
+    LookAtFiles(Box<WantedFiles>),
+    /// Copies these files into the folder of the scene, and uses them.
+    CopyFiles(Box<WantedFiles>),
     /// Writes a project with this script next to its file, and opens it.
     NewProject(PathBuf),
 }

@@ -1,8 +1,11 @@
 //! The state of the panels, as the program around them uses it: requests go in, effects come out, and [`State::read`] gives
 //! what is shown.
 
-use super::actions::{bones, compare, drags, execute, feed, files, input, playback, scene_view, show};
+use super::actions::{
+    bones, compare, drags, execute, feed, files, input, playback, scene_files, scene_view, show,
+};
 use super::context::PanelContext;
+use super::dropped_files::WantedFiles;
 use super::export::AnsweredExport;
 use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
@@ -206,6 +209,12 @@ impl State {
     /// Returns the pictures of the shots, to which the program around the panels adds what was drawn.
     pub fn thumbnails(&mut self) -> &mut SceneThumbnails {
         self.workspace.scene.thumbnails_mut()
+    }
+
+    /// Uses files that the scene is to get, of which a job has found out where they are and copied this number; or asks about those outside of
+    /// its folder.
+    pub fn files_answered(&mut self, wanted: Box<WantedFiles>, copied: usize) -> Option<Effect> {
+        scene_files::answered(&mut self.workspace, wanted, copied)
     }
 
     /// Shows the poses of the library.

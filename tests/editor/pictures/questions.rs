@@ -2,14 +2,15 @@
 
 use super::series::{self, Crop, PictureCase};
 use super::states::Fullness;
-use crate::questions::offer;
+use crate::questions::{missing as missing_file, offer, wanted};
 use crate::workbench::Workbench;
 use dragonfly::panels::dialogs::{
-    ChangedQuestion, ExistsQuestion, FindQuestion, OutdatedQuestion, PlaceQuestion, PlanQuestion, Question,
-    RecoverQuestion, RewriteQuestion, UnfitQuestion, UnsavedQuestion,
+    ChangedModelsQuestion, ChangedQuestion, CopyQuestion, ExistsQuestion, FindQuestion, MissingQuestion,
+    OutdatedQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion, RewriteQuestion, UnfitQuestion,
+    UnsavedQuestion,
 };
 use dragonfly_document::edit::{Edit, ReverseTake, TakeRef};
-use dragonfly_document::{Change, FileView, Offer, OutdatedEdits, SaveOrder, Source, Then};
+use dragonfly_document::{Change, FileView, MissingFile, Offer, OutdatedEdits, SaveOrder, Source, Then};
 use dragonfly_store::DocumentFileState::{Changed, Missing, Same, Unsaved};
 use dragonfly_store::FileState;
 use dragonfly_store::OwnerStatus::{Exited, OnOtherHost};
@@ -67,6 +68,14 @@ const TABLE: &[QuestionRow] = &[
     ("rewrite", "crowded", || RewriteQuestion { order: SaveOrder::own(Some(Then::Quit)) }.into()),
     ("outdated", "typical", || outdated("Fox.glb")),
     ("outdated", "crowded", || outdated(&long("A fox"))),
+    ("changedmodels", "typical", || changed_models(3)),
+    ("changedmodels", "crowded", || changed_models(400)),
+    ("copy", "typical", || CopyQuestion { wanted: wanted(&["knight.gltf"]) }.into()),
+    ("copy", "crowded", || CopyQuestion { wanted: wanted(&["knight.gltf"; 60]) }.into()),
+    ("missing", "typical", || MissingQuestion { missing: missing_file() }.into()),
+    ("missing", "crowded", || {
+        MissingQuestion { missing: MissingFile { file: long("a knight"), ..missing_file() } }.into()
+    }),
     ("place", "typical", || PlaceQuestion { copy: false, then: None }.into()),
     ("place", "crowded", || PlaceQuestion { copy: true, then: Some(Then::Quit) }.into()),
 ];
@@ -78,6 +87,12 @@ fn exists(path: &str) -> Question {
 fn outdated(title: &str) -> Question {
     let edits = OutdatedEdits { model: "fox".to_owned(), title: title.to_owned(), hash: 7 };
     OutdatedQuestion { edits }.into()
+}
+
+fn changed_models(count: u64) -> Question {
+    let edits =
+        |hash: u64| OutdatedEdits { model: format!("fox-{hash}"), title: format!("Fox {hash}.glb"), hash };
+    ChangedModelsQuestion { edits: (1..=count).map(edits).collect() }.into()
 }
 
 fn plan(lines: Arc<[String]>, order: Option<SaveOrder>) -> Question {

@@ -67,6 +67,9 @@ script_labels! {
     DrawLine = "Draw line",
     EraseLine = "Erase line",
     EditModel = "Edit model",
+    FindFiles = "Find files",
+    ApplyEdits = "Apply edits again",
+    RemoveEdits = "Remove edits",
 }
 
 impl ScriptLabel {

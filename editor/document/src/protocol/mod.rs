@@ -6,6 +6,7 @@
 //! | `{"do": "edit", "edit": {…}, "gesture": 7}` | applies an edit that replaces the one before of its gesture |
 //! | `{"do": "cancel", "gesture": 7}` | cancels a gesture |
 //! | `{"do": "undo"}`, `{"do": "redo"}`, `{"do": "go_to", "steps": 3}` | undoes or redoes steps |
+//! | `{"do": "settle_edits", "choice": "apply"}`, or `"remove"` | applies edits that a project keeps and that were made for other files, or removes them |
 //! | `{"do": "plan"}` | returns what a save would change |
 //! | `{"do": "save"}`, `{"do": "save", "to": "Fox2.glb"}` | saves |
 //! | `{"query": "takes"}`, `{"query": "schedule"}` … | reads; see [`Query`] |

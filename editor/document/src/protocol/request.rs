@@ -1,9 +1,9 @@
 //! Requests of a client, one per line.
 
 use super::Query;
-use crate::Change;
 use crate::edit::Edit;
 use crate::history::Gesture;
+use crate::{Change, OutdatedEditsChoice};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
@@ -33,6 +33,14 @@ pub enum ProtocolCommand {
     GoTo {
         /// Number of steps.
         steps: usize,
+    },
+    /// Apply the edits of models that a project keeps and that were made for other files, or remove them, as one step.
+    SettleEdits {
+        /// Whether they are applied or removed.
+        choice: OutdatedEditsChoice,
+        /// The models, as scripts name them; all of them if absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        models: Option<Vec<String>>,
     },
     /// Return what a save would change.
     Plan,

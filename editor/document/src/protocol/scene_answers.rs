@@ -1,8 +1,10 @@
 //! Answers about the scene of a script: its texts, what is wrong with it, when its actions begin and end.
 
 use crate::Cancel;
+use crate::OutdatedEdits;
 use crate::adapter::{ModelAdapter, TextFile, TextFiles};
 use crate::edit::TextRef;
+use crate::project_notes::ProjectNotes;
 use crate::scene_check::{CheckedScript, CheckedText, SceneCheck};
 use crate::text_source::first_script;
 use dragonfly_anim::stage::project::StageProject;
@@ -76,6 +78,32 @@ impl SceneAnswers {
             object.insert("edits".to_owned(), json!(unfit));
         }
         Ok(answer)
+    }
+
+    /// Returns the edits of models that the project keeps and that were made for other files.
+    ///
+    /// # Errors
+    ///
+    /// The document is no project, or its text has errors.
+    pub(super) fn outdated(&mut self, texts: &TextFiles) -> Result<Vec<OutdatedEdits>, String> {
+        Ok(self.notes(texts)?.outdated)
+    }
+
+    /// Returns a sentence for each model whose edits are not applied, or do not fit.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Self::outdated`].
+    pub(super) fn unfit(&mut self, texts: &TextFiles) -> Result<Vec<String>, String> {
+        Ok(self.notes(texts)?.unfit.into_iter().map(|note| note.message).collect())
+    }
+
+    /// Reads the models of the project, and returns the notes about them.
+    fn notes(&mut self, texts: &TextFiles) -> Result<ProjectNotes, String> {
+        self.0.all(texts, &Cancel::default()).map_err(|error| error.to_string())?;
+        let project = self.0.project(texts).map_err(|errors| listed(&errors))?;
+        let project = project.ok_or("only a project keeps edits of models")?;
+        Ok(self.0.notes(&project))
     }
 
     /// Returns when each action begins and ends.

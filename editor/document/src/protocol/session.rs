@@ -3,9 +3,10 @@
 use super::scene_answers::SceneAnswers;
 use super::{ProtocolCommand, ProtocolRequest};
 use crate::open::Open;
+use crate::project_edits::settled;
 use crate::save_job::{FailedWrite, SaveTarget, prepare};
 use crate::writing::Overwrite;
-use crate::{Change, Editable, FaultInjection, OpenedModel};
+use crate::{Cancel, Change, Editable, FaultInjection, OpenedModel, OutdatedEdits, OutdatedEditsChoice};
 use dragonfly_anim::format::{ChangeReport, SavePlan};
 use dragonfly_store::Autosave;
 use serde_json::{Value, json};
@@ -101,6 +102,9 @@ impl Session {
             ProtocolCommand::Undo => Change::Undo,
             ProtocolCommand::Redo => Change::Redo,
             ProtocolCommand::GoTo { steps } => Change::GoTo(*steps),
+            ProtocolCommand::SettleEdits { choice, models } => {
+                return self.settle_edits(*choice, models.as_deref());
+            }
             ProtocolCommand::Plan => return Ok(changes(self.plan()?.changes.as_ref())),
             ProtocolCommand::Save { to } => return self.save(to.as_deref()),
         };
@@ -111,6 +115,29 @@ impl Session {
         }
         let (steps, done) = self.open.edited.steps();
         Ok(json!({"steps": steps.len(), "done": done}))
+    }
+
+    /// Carries out a decision about edits of models that were made for other files.
+    fn settle_edits(
+        &mut self,
+        choice: OutdatedEditsChoice,
+        models: Option<&[String]>,
+    ) -> Result<Value, String> {
+        let outdated = self.scene.outdated(self.open.edited.adapter().texts())?;
+        let is_wanted = |edits: &OutdatedEdits| models.is_none_or(|models| models.contains(&edits.model));
+        let unknown = |name: &&String| !outdated.iter().any(|edits| edits.model == **name);
+        if let Some(name) = models.unwrap_or_default().iter().find(unknown) {
+            return Err(format!("{name} has no edits that were made for another file"));
+        }
+        let wanted: Vec<OutdatedEdits> = outdated.iter().filter(|edits| is_wanted(edits)).cloned().collect();
+        if let Some(edit) = settled(self.open.edited.adapter().texts(), &wanted, choice)? {
+            let change = Change::Edit(edit.into(), None);
+            self.open.change(change, Instant::now()).map_err(|error| error.to_string())?;
+        }
+        let unfit = self.scene.unfit(self.open.edited.adapter().texts())?;
+        let models: Vec<&str> = wanted.iter().map(|edits| &*edits.model).collect();
+        let (steps, done) = self.open.edited.steps();
+        Ok(json!({"models": models, "unfit": unfit, "steps": steps.len(), "done": done}))
     }
 
     fn plan(&self) -> Result<SavePlan, String> {
@@ -132,7 +159,8 @@ impl Session {
         };
         let now = Instant::now();
         let input = self.open.begin_saving(target, role, overwrite, None, FaultInjection::default(), now)?;
-        let mut prepared = match prepare(input) {
+        let cancel = Cancel::default();
+        let mut prepared = match prepare(input, &cancel) {
             Ok(prepared) => prepared,
             Err(reason) => {
                 self.open.save_failed(None);
@@ -141,16 +169,19 @@ impl Session {
         };
         self.open.record_saving(&mut prepared, now);
         let (changes, lost) = (changes(prepared.changes()), prepared.lost().to_vec());
-        let written = match prepared.write() {
+        let written = match prepared.write(&cancel) {
             Ok(written) => written,
             Err(FailedWrite { reason, partly }) => {
                 self.open.save_failed(partly);
                 return Err(reason.to_string());
             }
         };
-        let files = written.saved.files.clone();
+        let (files, notices) = (written.saved.files.clone(), written.saved.notices.clone());
         self.open.end_save(written, None, now);
         let mut answer = json!({"written": files, "changes": changes});
+        if !notices.is_empty() {
+            answer["notices"] = json!(notices);
+        }
         if !lost.is_empty() {
             answer["lost"] = json!(lost);
         }

@@ -55,6 +55,8 @@ pub(in crate::panels) fn let_through(
         | Effect::DemoScene(_)
         | Effect::NewProject(_)
         | Effect::LookAtModels(_)
+        | Effect::LookAtFiles(_)
+        | Effect::CopyFiles(_)
         | Effect::RetryDevice) => pass(effect),
     }
 }

@@ -3,21 +3,21 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 use super::{
-    bones, clipboard, drags, dropped, files, framing, keys, layers, locks, look, playback, scene, scene_time,
-    scope, sets, takes,
+    added_files, bones, clipboard, drags, dropped, files, framing, keys, layers, locks, look, playback,
+    scene, scene_files, scene_time, scope, sets, takes,
 };
 use crate::panels::commands;
+use crate::panels::dropped_files::FileUse;
 use crate::panels::file_choice::FileChoice;
 use crate::panels::keys::KeysRequest;
 use crate::panels::reference::settings::ReferenceSettings;
 use crate::panels::request::{Effect, FileAction, Request};
-use crate::panels::scene::NewThing;
 use crate::panels::settings::IkSettings;
 use crate::panels::sound::SoundSettings;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
-use dragonfly_document::{Change, ClipOrder, DocumentMessage, Source, Then};
+use dragonfly_document::{Change, ClipOrder, DocumentMessage, SceneFileKind, Source, Then};
 use dragonfly_picture::between;
 use dragonfly_sound::is_sound_file;
 
@@ -122,10 +122,20 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Sets(action) => sets::perform(workspace, &action),
         Request::Scene(request) => return scene::perform(workspace, request),
         Request::Dropped(files) => return dropped::dropped(workspace, files),
-        Request::DroppedModels(models) => return dropped::add_known(workspace, &models),
+        Request::DroppedModels(models) => return added_files::add_known(workspace, &models),
         Request::AddLayerFrom(take) => return layers::add_from(workspace, take),
-        Request::AddRole(path) => return scene::add_model(workspace, &path, NewThing::Role),
-        Request::AddProp(path) => return scene::add_model(workspace, &path, NewThing::Prop),
+        Request::AddRole(path) => {
+            return scene_files::want(workspace, vec![(SceneFileKind::Model, path)], FileUse::Role);
+        }
+        Request::AddProp(path) => {
+            return scene_files::want(workspace, vec![(SceneFileKind::Model, path)], FileUse::Prop);
+        }
+        Request::CopyFiles(wanted) => return Some(scene_files::copy(workspace, wanted)),
+        Request::FileFound(path) => {
+            workspace.prompts.close_missing();
+            return scene_files::found(workspace, path);
+        }
+        Request::TypeFoundFile => scene_files::type_path(workspace),
         Request::NewScene(path) => return Some(Effect::NewScene(path)),
         Request::DemoScene(folder) => return Some(Effect::DemoScene(folder)),
     }

@@ -30,6 +30,8 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         | Effect::RetryDevice
         | Effect::NewScene(_)
         | Effect::LookAtModels(_)
+        | Effect::LookAtFiles(_)
+        | Effect::CopyFiles(_)
         | Effect::DemoScene(_)
         | Effect::NewProject(_)
         | Effect::File(_) => &[],

@@ -3,6 +3,7 @@
 //! [`execute::execute`] is the only function that dispatches requests; a command of the table calls the function that its
 //! row names.
 
+mod added_files;
 pub(super) mod baking;
 pub(super) mod bones;
 pub(super) mod clipboard;
@@ -35,6 +36,7 @@ pub(super) mod scene_attach;
 pub(super) mod scene_camera;
 pub(super) mod scene_clipboard;
 pub(super) mod scene_clips;
+pub(super) mod scene_files;
 pub(super) mod scene_focus;
 mod scene_gizmo;
 pub(super) mod scene_ground;

@@ -1,15 +1,14 @@
 //! Scenes: selection, the newest text, things of the cast.
 
-use super::scene_text::{add, change_project, change_text};
-use super::{playback, scene_around, scene_camera, scene_lines, scene_view};
+use super::scene_text::{change_project, change_text};
+use super::{playback, scene_around, scene_camera, scene_files, scene_lines, scene_view};
 use crate::panels::commands::{self, Command, Id};
 use crate::panels::request::{Effect, FileAction};
-use crate::panels::scene::{NewThing, SceneRequest};
+use crate::panels::scene::SceneRequest;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::DocumentMessage;
 use dragonfly_document::bones::Choice;
-use std::path::{Component, Path};
 
 /// Returns the command that is run in place of another one: those of scenes while a scene is open, and the pose line in place of lines of a project
 /// while a model is.
@@ -55,48 +54,13 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
         SceneRequest::Through(through) => scene_camera::look_through(workspace, through),
         SceneRequest::EditModel(thing) => return edit_model(workspace, &thing),
+        SceneRequest::Settle(edits, choice) => {
+            let message = DocumentMessage::DecideAllOutdated(vec![edits], choice);
+            return Some(Effect::File(FileAction::Send(message)));
+        }
+        SceneRequest::Find(missing) => return scene_files::find(workspace, missing),
     }
     None
-}
-
-/// Adds a model file to the cast.
-pub(super) fn add_model(
-    workspace: &mut Workspace,
-    path: &Path,
-    thing: impl FnOnce(String) -> NewThing,
-) -> Option<Effect> {
-    let model = name_in_scene(workspace, path)?;
-    add(workspace, &thing(model))
-}
-
-/// Returns the name of a file as the script that is open writes it; `None`, with a message, where the file is not below its folder.
-pub(super) fn name_in_scene(workspace: &mut Workspace, path: &Path) -> Option<String> {
-    let folder = workspace.read().model_folder()?;
-    let name = relative(&folder, path);
-    if name.is_none() {
-        let text = format!(
-            "{} is not in the folder of the scene: copy it to {} or below first",
-            path.file_name().unwrap_or_default().display(),
-            folder.display()
-        );
-        workspace.say(MessageSeverity::Warning, text);
-    }
-    name
-}
-
-/// Returns a path relative to a folder that contains it, with `/`.
-fn relative(folder: &Path, path: &Path) -> Option<String> {
-    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let (folder, path) = (absolute(folder), absolute(path));
-    let rest = path.strip_prefix(&folder).ok()?;
-    let parts: Option<Vec<&str>> = rest
-        .components()
-        .map(|part| match part {
-            Component::Normal(name) => name.to_str(),
-            Component::Prefix(_) | Component::RootDir | Component::CurDir | Component::ParentDir => None,
-        })
-        .collect();
-    parts.map(|parts| parts.join("/")).filter(|parts| !parts.is_empty())
 }
 
 /// Starts to rename the active thing.

@@ -6,10 +6,13 @@
 
 mod ask;
 mod changed;
+mod changed_models;
+mod copy;
 mod exists;
 mod find;
 mod kind;
 mod line_list;
+mod missing;
 mod outdated;
 mod place;
 mod plan;
@@ -64,4 +67,7 @@ questions! {
     Place => place::PlaceQuestion,
     Unfit => unfit::UnfitQuestion,
     Outdated => outdated::OutdatedQuestion,
+    ChangedModels => changed_models::ChangedModelsQuestion,
+    Copy => copy::CopyQuestion,
+    Missing => missing::MissingQuestion,
 }

@@ -15,7 +15,7 @@ use dragonfly_anim::stage::{RigidPlace, StagePlan};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{Edit, TextRef};
 use dragonfly_document::history::Gesture;
-use dragonfly_document::{Change, SceneView};
+use dragonfly_document::{Change, MissingFile, SceneView};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -56,6 +56,8 @@ pub struct SceneEditing {
     project: NewestText,
     /// The gesture that is a word that someone types.
     typing: Option<Gesture>,
+    /// The missing file that the user looks for.
+    finding: Option<MissingFile>,
 }
 
 impl Default for SceneEditing {
@@ -78,6 +80,7 @@ impl Default for SceneEditing {
             script: NewestText::default(),
             project: NewestText::default(),
             typing: None,
+            finding: None,
         }
     }
 }
@@ -274,6 +277,7 @@ impl SceneEditing {
             script: NewestText::default(),
             project: NewestText::default(),
             typing: None,
+            finding: None,
             ..self.clone()
         }
     }
@@ -351,6 +355,15 @@ impl SceneEditing {
     /// Notes the gesture of a word that someone types.
     pub(in crate::panels) fn set_typing(&mut self, gesture: Option<Gesture>) {
         self.typing = gesture;
+    }
+
+    /// Returns the missing file that the user looks for.
+    pub fn finding(&self) -> Option<&MissingFile> {
+        self.finding.as_ref()
+    }
+
+    pub(in crate::panels) fn set_finding(&mut self, missing: Option<MissingFile>) {
+        self.finding = missing;
     }
 
     /// Notes the number of a change that was passed on.

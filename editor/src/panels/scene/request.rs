@@ -4,6 +4,7 @@ use crate::panels::keys::TimeWindow;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{EditScript, ScriptLabel};
 use dragonfly_document::history::Gesture;
+use dragonfly_document::{MissingFile, OutdatedEdits, OutdatedEditsChoice};
 use dragonfly_picture::ThroughCamera;
 use std::sync::Arc;
 
@@ -80,4 +81,8 @@ pub enum SceneRequest {
     EditModel(Box<str>),
     /// A request about a drawn line.
     Line(LineRequest),
+    /// Applies the edits of a model that were made for another file, or removes them.
+    Settle(OutdatedEdits, OutdatedEditsChoice),
+    /// Asks where a missing file is now.
+    Find(MissingFile),
 }

@@ -1,7 +1,7 @@
 //! The sounds of the scene that is open: which are wanted, and their peaks once they are read.
 
 use dragonfly_anim::stage::StagePlan;
-use dragonfly_document::{SoundPeaks, SoundStamp};
+use dragonfly_document::{MissingFile, SceneFileKind, SoundPeaks, SoundStamp};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -32,6 +32,18 @@ impl SceneSounds {
     /// Returns what is known of a sound; `None` where it was not asked for yet.
     pub fn get(&self, source: &str) -> Option<&SceneSound> {
         self.sounds.get(source)
+    }
+
+    /// Returns the sounds that are missing or cannot be read.
+    pub fn missing(&self) -> impl Iterator<Item = MissingFile> + '_ {
+        let is_missing = |(source, sound): (&Box<str>, &SceneSound)| match sound {
+            SceneSound::Problem(_) => {
+                let name = source.to_string();
+                Some(MissingFile { kind: SceneFileKind::Sound, file: name.clone(), name })
+            }
+            SceneSound::Reading | SceneSound::Read(_) => None,
+        };
+        self.sounds.iter().filter_map(is_missing)
     }
 
     /// Returns a number that grows when another document is opened, after which earlier answers mean nothing.

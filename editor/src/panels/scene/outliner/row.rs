@@ -12,9 +12,18 @@ use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::stage::script::ScriptElement;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{SceneModel, SceneView};
+use dragonfly_document::{OutdatedEdits, OutdatedEditsChoice, SceneModel, SceneView};
 use egui::accesskit::Role;
 use egui::{Rect, Response, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
+
+/// Width of the button that finds a missing model, points.
+const FIND: f32 = 44.0;
+
+/// The entries for edits of a model that were made for another file.
+const SETTLED: [(&str, OutdatedEditsChoice); 2] = [
+    ("Apply the edits again", OutdatedEditsChoice::Apply),
+    ("Remove the edits", OutdatedEditsChoice::Remove),
+];
 
 /// Draws a row. Returns whether it was clicked.
 pub(super) fn show(
@@ -45,13 +54,22 @@ pub(super) fn show(
         && text.right() - end > 30.0
     {
         let place = Rect::from_min_max(pos2(end + 8.0, rect.top()), text.max);
-        widgets::text_in(
-            ui,
-            place,
-            note,
-            &TextStyle::Small,
-            if *is_bad { theme.warning } else { theme.faint },
-        );
+        let color = if *is_bad { theme.warning } else { theme.faint };
+        let end = widgets::text_in(ui, place, note, &TextStyle::Small, color);
+        let place = Rect::from_min_max(pos2(end + 4.0, rect.top()), text.max);
+        if *is_bad && place.width() > FIND {
+            let place = place.with_max_x(place.left() + FIND);
+            let button = ui.interact(place, response.id.with("find"), Sense::click());
+            button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Find the model of {id}")));
+            let color = if button.hovered() { theme.text } else { theme.accent };
+            widgets::text_in(ui, place.shrink2(vec2(4.0, 0.0)), "Find…", &TextStyle::Small, color);
+            widgets::focus_ring(ui, &button, place);
+            if button.clicked() {
+                requests.extend(find_request(thing, scene));
+            }
+            button
+                .on_hover_text("Choose the file in its place; others that are missing are found next to it");
+        }
     }
     let switches = [
         (36.0, editing.is_locked(id), [Icon::Unlocked, Icon::Locked], ["Lock", "Unlock"]),
@@ -77,7 +95,7 @@ pub(super) fn show(
         }
         button.on_hover_text(format!("{verb} {id}"));
     }
-    menu(&response, context, (kind, id), requests);
+    menu(&response, context, scene, thing, requests);
     if response.double_clicked() {
         requests.push(match kind {
             "role" | "prop" => Request::Scene(SceneRequest::EditModel(id.into())),
@@ -128,13 +146,46 @@ fn hint(thing: &ScriptElement, model: Option<&SceneModel>, file: Option<&str>) -
     format!("{kind} {id}{source}{file}{reason}{action}")
 }
 
+/// Returns the request that asks where the missing model of a thing is; `None` where it is not missing.
+fn find_request(thing: &ScriptElement, scene: &SceneView) -> Option<Request> {
+    let name = thing.value("model")?;
+    match scene.models.get(name)? {
+        SceneModel::Missing(_) => Some(Request::Scene(SceneRequest::Find(scene.missing_model(name)))),
+        SceneModel::Loading | SceneModel::Loaded(_) => None,
+    }
+}
+
+/// Returns the edits of the model of a thing that were made for another file; `None` where there are none.
+fn outdated<'a>(thing: &ScriptElement, scene: &'a SceneView) -> Option<&'a OutdatedEdits> {
+    let project = scene.project.as_ref()?;
+    let id = project.model_id(thing.value("model")?)?;
+    scene.outdated.iter().find(|edits| project.model_id(&edits.model) == Some(id))
+}
+
 fn menu(
     response: &Response,
     context: &PanelContext<'_>,
-    (kind, id): (&str, &str),
+    scene: &SceneView,
+    thing: &ScriptElement,
     requests: &mut Vec<Request>,
 ) {
+    let (kind, id) = (thing.row.name, thing.value("id").unwrap_or_default());
     response.context_menu(|ui| {
+        if let Some(find) = find_request(thing, scene)
+            && ui.add(egui::Button::new("Find the model…").frame_when_inactive(false)).clicked()
+        {
+            requests.push(find);
+            ui.close();
+        }
+        if let Some(edits) = outdated(thing, scene) {
+            for (title, choice) in SETTLED {
+                if ui.add(egui::Button::new(title).frame_when_inactive(false)).clicked() {
+                    requests.push(Request::Scene(SceneRequest::Settle(edits.clone(), choice)));
+                    ui.close();
+                }
+            }
+            ui.separator();
+        }
         if matches!(kind, "role" | "prop")
             && ui.add(egui::Button::new("Edit takes and bones").frame_when_inactive(false)).clicked()
         {

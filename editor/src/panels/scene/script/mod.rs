@@ -29,6 +29,7 @@ use egui::text_edit::TextEditState;
 use egui::{
     CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer, TextEdit, Ui, pos2,
 };
+use error_list::ListClick;
 use lines::{byte_of, characters_before, lines_of, moved_position};
 use popup::{SuggestionKey, SuggestionList};
 use std::collections::BTreeSet;
@@ -94,12 +95,17 @@ impl Panel for ScriptPanel {
         }
         let rect = ui.available_rect_before_wrap();
         ui.painter().rect_filled(rect, CornerRadius::ZERO, Theme::of(ui).sunken);
-        let errors = error_list::height(scene, rect.height());
+        let sounds = context.scene_editing.sounds();
+        let errors = error_list::height(scene, sounds, rect.height());
         let edit = Rect::from_min_max(rect.min, pos2(rect.right(), rect.bottom() - errors));
         let list = Rect::from_min_max(pos2(rect.left(), edit.bottom()), rect.max);
-        if let Some((text, at)) = error_list::show(ui, list, scene) {
-            self.choose(Some(text), requests);
-            self.jump = Some(at);
+        match error_list::show(ui, list, scene, sounds) {
+            Some(ListClick::Place(text, at)) => {
+                self.choose(Some(text), requests);
+                self.jump = Some(at);
+            }
+            Some(ListClick::Find(missing)) => requests.push(Request::Scene(SceneRequest::Find(missing))),
+            None => {}
         }
         let (id, text) = match self.shown {
             ShownText::Script => (Id::unique("script of the scene"), context.scene_editing.text(scene)),

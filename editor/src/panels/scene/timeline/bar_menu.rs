@@ -5,10 +5,12 @@ use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
+use crate::panels::scene::SceneRequest;
 use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed, wait_after};
 use dragonfly_anim::stage::script::StageRepeat;
 use dragonfly_anim::stage::table::element;
 use dragonfly_anim::stage::time::{Decimal, StageTime};
+use dragonfly_document::MissingFile;
 use dragonfly_document::edit::ScriptLabel;
 use egui::Ui;
 
@@ -24,6 +26,12 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
     let Some((_, bar)) = sheet.lanes.bar_of(action) else { return };
     let row = element(bar.kind);
     let has = |name: &str| row.is_some_and(|row| row.attribute(name).is_some());
+    if let Some(missing) = missing_sound(action, sheet)
+        && ui.add(egui::Button::new("Find the sound…").frame_when_inactive(false)).clicked()
+    {
+        requests.push(Request::Scene(SceneRequest::Find(missing)));
+        ui.close();
+    }
     for id in [Id::ClipToPlayhead, Id::ClipStartToPlayhead, Id::ClipEndToPlayhead] {
         item(ui, sheet.context, id, false, requests);
     }
@@ -76,6 +84,13 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
     for id in [Id::SceneDuplicate, Id::SceneDelete, Id::SceneLift] {
         item(ui, sheet.context, id, false, requests);
     }
+}
+
+/// Returns the sound of an action, if it is missing.
+fn missing_sound(action: usize, sheet: &SceneSheet<'_>) -> Option<MissingFile> {
+    let script = sheet.scene.script.as_ref()?;
+    let source = script.element(action).value("src")?;
+    sheet.context.scene_editing.sounds().missing().find(|missing| missing.name == source)
 }
 
 fn fade_entries(

@@ -1,0 +1,157 @@
+//! Finds the files that a project, or the script of a scene, needs: those that its texts name, and those that its models need themselves.
+
+use super::adapter::{TextFile, TextFiles};
+use super::import::{self, ImportDoor};
+use super::scene_includes::read_includes;
+use super::source::file_name;
+use super::{Cancel, FileAccessError, Folder};
+use dragonfly_anim::format::{AssetError, AssetFs, Conventions};
+use dragonfly_anim::limits::FILE_BYTES;
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_anim::stage::script::{ScriptContext, ScriptElement, ScriptTree, StageScript};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The files that texts need, by names relative to the folder of the main one. The texts themselves may be among them.
+#[derive(Debug, Default)]
+pub(super) struct NeededFiles {
+    /// Their names, also of those that are missing.
+    pub(super) names: BTreeSet<String>,
+    /// Reasons why there may be more: texts and models with errors, a sentence each.
+    pub(super) reasons: Vec<String>,
+}
+
+impl NeededFiles {
+    /// Finds the files that `texts`, a project with its scripts or a script alone, need in `folder`. Reads each model to know what it needs.
+    pub(super) fn of(texts: &TextFiles, is_project: bool, folder: &Folder, cancel: &Cancel) -> Self {
+        let mut search = FileSearch { folder, cancel, found: Self::default() };
+        search.of_texts(texts, is_project);
+        search.found
+    }
+
+    /// Finds the files that the model at `path` with these bytes needs itself, by names relative to its folder.
+    ///
+    /// # Errors
+    ///
+    /// Its folder cannot be read.
+    pub(super) fn of_model(path: &Path, bytes: &[u8], cancel: &Cancel) -> Result<Self, FileAccessError> {
+        let door = RecordingDoor { folder: Folder::of(path)?, names: RefCell::default() };
+        let files = ImportDoor { files: &door, conventions: Conventions::default() };
+        let read = import::read(&file_name(path), bytes, files, &|_| {}, cancel);
+        let reasons = read.err().map(|error| error.to_string()).into_iter().collect();
+        Ok(Self { names: door.names.into_inner(), reasons })
+    }
+}
+
+/// The search for the files that texts need.
+struct FileSearch<'a> {
+    folder: &'a Folder,
+    cancel: &'a Cancel,
+    found: NeededFiles,
+}
+
+impl FileSearch<'_> {
+    fn of_texts(&mut self, texts: &TextFiles, is_project: bool) {
+        let Some((main, scripts)) = texts.list().split_first() else { return };
+        if !is_project {
+            return self.of_script(main, texts, None);
+        }
+        match StageProject::read(main.text.clone()) {
+            Ok(project) => {
+                let own: Vec<String> = project.files().into_iter().map(str::to_owned).collect();
+                for model in project.tree().elements().iter().filter_map(model_of) {
+                    self.of_model(project.source_of(model));
+                }
+                self.found.names.extend(own);
+                for file in scripts.iter().filter(|file| project.scripts().any(|name| *name == *file.name)) {
+                    self.of_script(file, texts, Some(&project));
+                }
+            }
+            Err(errors) => {
+                self.found.reasons.extend(errors.iter().map(|error| error.in_file(&main.name)));
+            }
+        }
+    }
+
+    fn of_script(&mut self, file: &TextFile, texts: &TextFiles, project: Option<&StageProject>) {
+        let TextFile { name, text } = file;
+        let files = read_includes((name, text), texts, Ok(self.folder), self.cancel);
+        let context = ScriptContext { name: name.clone(), project: project.cloned(), files };
+        match StageScript::read_in(text.clone(), &context) {
+            Ok(script) => {
+                self.found.names.extend(script.tree().included_files().into_iter().map(str::to_owned));
+                self.of_tree(script.tree(), "", project);
+            }
+            Err(errors) => {
+                self.found.reasons.extend(errors.iter().map(|error| error.in_file(name)));
+                // The names in its files may be known although it has errors.
+                for (file, text) in context.files.texts().chain([(&**name, text)]) {
+                    self.found.names.insert(file.to_owned());
+                    if let Ok(tree) = ScriptTree::read(Arc::clone(text)) {
+                        self.of_tree(&tree, file.rsplit_once('/').map_or("", |(inside, _)| inside), project);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds what elements name, relative to the folder `inside`.
+    fn of_tree(&mut self, tree: &ScriptTree, inside: &str, project: Option<&StageProject>) {
+        for element in tree.elements() {
+            if let Some(model) = element.value("model") {
+                match project.filter(|project| project.model_id(model).is_some()) {
+                    Some(project) => self.of_model(project.source_of(model)),
+                    None => self.of_model(&below(inside, model)),
+                }
+            }
+            if let Some(source) = element.value("src").filter(|_| element.row.name != "include") {
+                self.found.names.insert(below(inside, source));
+            }
+        }
+    }
+
+    /// Adds a model and the files that it needs.
+    fn of_model(&mut self, name: &str) {
+        if self.cancel.is_cancelled() || !self.found.names.insert(name.to_owned()) {
+            return;
+        }
+        // A missing model is found when it is copied.
+        let Ok(path) = self.folder.path_of(name) else { return };
+        let Ok(bytes) = self.folder.read(name, FILE_BYTES) else { return };
+        let Ok(NeededFiles { names, reasons }) = NeededFiles::of_model(&path, &bytes, self.cancel) else {
+            return;
+        };
+        let inside = name.rsplit_once('/').map_or("", |(folder, _)| folder);
+        self.found.names.extend(names.iter().map(|own| below(inside, own)));
+        self.found.reasons.extend(reasons.into_iter().map(|reason| format!("{name}: {reason}")));
+    }
+}
+
+/// Returns the name of a file in the folder `inside`; an empty name means the folder of the document.
+fn below(inside: &str, name: &str) -> String {
+    if inside.is_empty() { name.to_owned() } else { format!("{inside}/{name}") }
+}
+
+/// Returns the model that an element of a project names by its file or its id, or is.
+fn model_of(element: &ScriptElement) -> Option<&str> {
+    match element.row.name {
+        "model" => element.value("src"),
+        _ => element.value("model"),
+    }
+}
+
+/// The folder of a model, which notes the names of the files that were read.
+struct RecordingDoor {
+    folder: Folder,
+    names: RefCell<BTreeSet<String>>,
+}
+
+impl AssetFs for RecordingDoor {
+    fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        let bytes = self.folder.read(name, limit)?;
+        self.names.borrow_mut().insert(name.to_owned());
+        Ok(bytes)
+    }
+}

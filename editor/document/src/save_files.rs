@@ -1,0 +1,128 @@
+//! The files of a save: those that change, and those that another folder needs with them.
+
+use super::adapter::{TextFile, TextFiles};
+use super::copied_files::{CopiedFiles, is_same, other_file};
+use super::editable::{Editable, is_same_path};
+use super::edited_content::EditedContent;
+use super::needed_files::NeededFiles;
+use super::text_source::is_project;
+use super::{Cancel, Folder};
+use dragonfly_anim::format::{OutputFile, SavePlan};
+use dragonfly_store::folder_of;
+use std::path::{Path, PathBuf};
+
+/// Path and contents of a file to write.
+pub type WrittenFile = (PathBuf, Vec<u8>);
+
+/// The files of a save.
+#[derive(Debug, Default)]
+pub struct SaveFiles {
+    /// The files that the document needs next to it, which another folder gets. They are copied first.
+    pub copied: CopiedFiles,
+    /// The files that are written. The file itself is last, so that it never refers to a file that does not exist.
+    pub written: Vec<WrittenFile>,
+    /// Texts of the document that another folder has already, with the same contents.
+    pub(super) kept: Vec<PathBuf>,
+    /// Whether they are in another folder than the document.
+    pub(super) is_elsewhere: bool,
+}
+
+impl Editable {
+    /// Returns whether `output` is in another folder than the file of the document.
+    pub(super) fn is_elsewhere(&self, output: &Path) -> bool {
+        self.path.as_deref().is_some_and(|own| !is_same_path(folder_of(own), folder_of(output)))
+    }
+
+    /// Returns the files that saving as `output` writes. What the document needs is copied along to another folder: the files next to a
+    /// model; the texts, models and sounds of a scene.
+    ///
+    /// # Errors
+    ///
+    /// The path and the reason why it is impossible, or it was cancelled. A file that the other folder has must be the one that is needed.
+    pub fn files(&self, plan: &SavePlan, output: &Path, cancel: &Cancel) -> Result<SaveFiles, String> {
+        let Some((main, beside)) = plan.files.split_last() else { return Ok(SaveFiles::default()) };
+        let folder = folder_of(output);
+        // A mistyped name makes no folder. Only folders of the files next to the model are created.
+        if !folder.is_dir() {
+            return Err(format!("{}: its folder does not exist", output.display()));
+        }
+        let written = |file: &OutputFile| (folder.join(&file.name), file.bytes.clone());
+        let from = self.path.as_deref().map(folder_of).filter(|_| self.is_elsewhere(output));
+        let mut files = SaveFiles { is_elsewhere: from.is_some(), ..SaveFiles::default() };
+        let Some(from) = from else {
+            files.written = beside.iter().map(written).collect();
+            files.written.push((output.to_path_buf(), main.bytes.clone()));
+            return Ok(files);
+        };
+        let from = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
+        let needed = match &self.content {
+            EditedContent::Model(file) => {
+                files.written = beside.iter().map(written).collect();
+                let is_written = |name: &String| beside.iter().any(|file| file.name == *name);
+                let names = file.neighbors().into_iter().filter(|name| !is_written(name));
+                NeededFiles { names: names.collect(), reasons: Vec::new() }
+            }
+            EditedContent::Texts(texts) => {
+                let texts = saved_texts(texts, plan);
+                files.add_texts(&texts, folder)?;
+                let needed =
+                    NeededFiles::of(&texts, self.path.as_deref().is_some_and(is_project), &from, cancel);
+                let is_other = |name: &String| texts.called(name).is_none();
+                NeededFiles { names: needed.names.into_iter().filter(is_other).collect(), ..needed }
+            }
+        };
+        files.copied = CopiedFiles::find(from, folder, needed.names, cancel)?;
+        files.copied.add_missing(needed.reasons);
+        if files.has(output) {
+            let path = output.display();
+            return Err(format!("{path}: the scene needs another file of this name; choose another name"));
+        }
+        files.written.push((output.to_path_buf(), main.bytes.clone()));
+        Ok(files)
+    }
+}
+
+impl SaveFiles {
+    /// Returns whether a file that is needed, or another text, has this path.
+    fn has(&self, path: &Path) -> bool {
+        let written = self.written.iter().map(|(path, _)| &**path);
+        let kept = self.kept.iter().map(|path| &**path);
+        written.chain(kept).chain(self.copied.paths()).any(|other| other == path)
+    }
+
+    /// Adds the texts of a document, apart from the main one, to be written into `folder`.
+    ///
+    /// # Errors
+    ///
+    /// The path of another file of this name.
+    fn add_texts(&mut self, texts: &TextFiles, folder: &Path) -> Result<(), String> {
+        for TextFile { name, text } in texts.list().iter().skip(1) {
+            let (path, bytes) = (folder.join(&**name), text.as_bytes());
+            if is_same(bytes, bytes.len() as u64, &path) {
+                self.kept.push(path);
+            } else if path.symlink_metadata().is_ok() {
+                return Err(other_file(&path));
+            } else {
+                self.written.push((path, bytes.to_vec()));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns the texts of a document as a plan saves them.
+fn saved_texts(on_disk: &TextFiles, plan: &SavePlan) -> TextFiles {
+    let Some((main, beside)) = plan.files.split_last() else { return on_disk.clone() };
+    let text = |file: &OutputFile| -> std::sync::Arc<str> { String::from_utf8_lossy(&file.bytes).into() };
+    let mut texts = on_disk.list().to_vec();
+    if let Some(own) = texts.first_mut() {
+        own.text = text(main);
+    }
+    for file in beside {
+        match texts.iter_mut().skip(1).find(|own| *own.name == *file.name) {
+            Some(own) => own.text = text(file),
+            None => texts.push(TextFile { name: file.name.as_str().into(), text: text(file) }),
+        }
+    }
+    TextFiles::new(texts)
+}

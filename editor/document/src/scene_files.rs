@@ -1,0 +1,240 @@
+//! Files that a scene is to get: those from outside of its folder are copied into it, because a scene names only what is in its folder.
+//! Everything here reads files and is called in jobs.
+
+use super::copied_files::{CopiedFiles, is_same};
+use super::folder::{checked, open_file};
+use super::needed_files::NeededFiles;
+use super::source::file_name;
+use super::{Cancel, Folder, make_folder, read_file};
+use dragonfly_anim::limits::FILE_BYTES;
+use dragonfly_store::{ExpectedFile, RealFiles, SaveOptions, save};
+use std::path::{Component, Path, PathBuf};
+
+/// Number of names that are tried for a copy.
+const MOST_NAMES: u32 = 10_000;
+
+/// The kind of a file that a script names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SceneFileKind {
+    /// A model.
+    Model,
+    /// A sound.
+    Sound,
+}
+
+/// A file that a script names and that is missing, or cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingFile {
+    /// Its kind.
+    pub kind: SceneFileKind,
+    /// The text with which scripts name it: of a model of a project its id.
+    pub name: String,
+    /// The file, relative to the folder of the scene.
+    pub file: String,
+}
+
+/// A file that a scene is to get.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneFile {
+    /// Its kind.
+    pub kind: SceneFileKind,
+    /// The file.
+    pub path: PathBuf,
+    /// Its name as scripts write it, relative to the folder of the scene; `None` where it is outside, or was not looked at.
+    pub name: Option<String>,
+    /// The files next to it that a model outside needs, relative to its folder.
+    pub beside: Vec<String>,
+    /// The missing file in whose place it is.
+    pub replaces: Option<MissingFile>,
+}
+
+/// Files that a scene is to get.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneFiles {
+    /// The folder of the scene.
+    pub folder: PathBuf,
+    /// The files.
+    pub files: Vec<SceneFile>,
+}
+
+impl SceneFileKind {
+    /// Returns the folder of a scene that gets copies of files of this kind.
+    pub fn folder(self) -> &'static str {
+        match self {
+            Self::Model => "models",
+            Self::Sound => "sound",
+        }
+    }
+}
+
+impl SceneFile {
+    /// Returns a file of which nothing is known.
+    pub fn new(kind: SceneFileKind, path: PathBuf) -> Self {
+        Self { kind, path, name: None, beside: Vec::new(), replaces: None }
+    }
+}
+
+impl SceneFiles {
+    /// Returns whether all of them are in the folder of the scene.
+    pub fn are_inside(&self) -> bool {
+        self.files.iter().all(|file| file.name.is_some())
+    }
+
+    /// Returns the files outside of the folder of the scene.
+    pub fn outside(&self) -> impl Iterator<Item = &SceneFile> {
+        self.files.iter().filter(|file| file.name.is_none())
+    }
+
+    /// Finds out which of the files are in the folder of the scene, and what the models outside need. Adds those of `others`, which are
+    /// missing too, that are next to the first file under their own names.
+    ///
+    /// # Errors
+    ///
+    /// The first file that cannot be read, with the reason.
+    pub fn look(&mut self, others: Vec<MissingFile>, cancel: &Cancel) -> Result<(), String> {
+        let root = self.root()?;
+        if let Some(beside) = self.files.first().and_then(|file| file.path.parent()).map(Path::to_owned) {
+            for other in others {
+                let path = beside.join(file_name(Path::new(&other.file)));
+                // The one that is named already may be there and damaged.
+                let is_named = root
+                    .path_of(&other.file)
+                    .is_ok_and(|own| path.canonicalize().is_ok_and(|path| path == own));
+                if !is_named && open_file(&path).is_ok() {
+                    let file = SceneFile::new(other.kind, path);
+                    self.files.push(SceneFile { replaces: Some(other), ..file });
+                }
+            }
+        }
+        for file in &mut self.files {
+            let title = file_name(&file.path);
+            open_file(&file.path).map_err(|error| format!("{title} {error}"))?;
+            file.name = name_inside(&self.folder, &root, &file.path);
+            if file.name.is_none() && file.kind == SceneFileKind::Model {
+                file.beside = beside(&file.path, cancel)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Copies the files outside into the folder of the scene, each with the files next to it that it needs. No file that is there is
+    /// overwritten: the same file is used, and where there is another one of its name, the copy gets another name. Returns the number of files that were
+    /// written.
+    ///
+    /// # Errors
+    ///
+    /// The path and the reason. Copies before it stay.
+    pub fn copy(&mut self, cancel: &Cancel) -> Result<usize, String> {
+        let root = self.root()?;
+        let mut written = 0;
+        for file in self.files.iter_mut().filter(|file| file.name.is_none()) {
+            let name = file.place(&self.folder)?;
+            written += file.copy_to(&self.folder.join(&name), cancel)?;
+            root.path_of(&name).map_err(|error| format!("{name} {error}"))?;
+            file.name = Some(name);
+        }
+        Ok(written)
+    }
+
+    fn root(&self) -> Result<Folder, String> {
+        Folder::new(&self.folder).map_err(|error| format!("{} {error}", self.folder.display()))
+    }
+}
+
+impl SceneFile {
+    /// Returns the name of its copy, relative to the folder of the scene: it is free there, or that of the same file.
+    fn place(&self, folder: &Path) -> Result<String, String> {
+        let title = file_name(&self.path);
+        let not_named = || format!("{title} cannot be named in a scene: rename it first");
+        let name = self.path.file_name().and_then(|name| name.to_str()).ok_or_else(not_named)?;
+        checked(name).map_err(|_| not_named())?;
+        let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
+        let from = Folder::of(&self.path).map_err(|error| format!("{title} {error}"))?;
+        let fits = |source: &str, target: &str| {
+            let target = folder.join(target);
+            let same = || {
+                let file = from.open(source).ok()?;
+                let size = file.metadata().ok()?.len();
+                Some(is_same(file, size, &target))
+            };
+            target.symlink_metadata().is_err() || same() == Some(true)
+        };
+        let fits_beside = |inside: &str| self.beside.iter().all(|own| fits(own, &format!("{inside}/{own}")));
+        let inside = self.kind.folder();
+        // A model names the files next to it, so that they keep their names.
+        let has_room = fits_beside(inside);
+        let candidate = |number: u32| {
+            let number = if number == 1 { String::new() } else { format!("-{number}") };
+            match has_room {
+                true if extension.is_empty() => (inside.to_owned(), format!("{stem}{number}")),
+                true => (inside.to_owned(), format!("{stem}{number}.{extension}")),
+                false => (format!("{inside}/{stem}{number}"), name.to_owned()),
+            }
+        };
+        let mut candidates = (1..=MOST_NAMES).map(candidate);
+        let found = candidates.find_map(|(inside, own)| {
+            let target = format!("{inside}/{own}");
+            (fits(name, &target) && fits_beside(&inside)).then_some(target)
+        });
+        found.ok_or_else(|| {
+            format!("{title}: {} has too many files of this name", folder.join(inside).display())
+        })
+    }
+
+    /// Writes its copy, and those of the files that it needs. Returns the number of files.
+    fn copy_to(&self, target: &Path, cancel: &Cancel) -> Result<usize, String> {
+        let title = file_name(&self.path);
+        let from = Folder::of(&self.path).map_err(|error| format!("{title} {error}"))?;
+        let to = target.parent().unwrap_or(target);
+        let beside = CopiedFiles::find(from, to, self.beside.iter().cloned(), cancel)?;
+        if let Some(missing) = beside.notices().next() {
+            return Err(missing);
+        }
+        let mut written = 0;
+        // Last, so that it never refers to a file that does not exist.
+        beside.write(cancel, |_, _, _| written += 1)?;
+        let bytes = read_file(&self.path, FILE_BYTES).map_err(|error| format!("{title} {error}"))?;
+        if is_same(&*bytes, bytes.len() as u64, target) {
+            return Ok(written);
+        }
+        make_folder(target)?;
+        let options = SaveOptions { expected: ExpectedFile::Nothing, versions: None };
+        save(&RealFiles, target, &bytes, &options).map_err(|error| error.to_string())?;
+        Ok(written + 1)
+    }
+}
+
+/// Returns the files next to a model that it needs.
+fn beside(path: &Path, cancel: &Cancel) -> Result<Vec<String>, String> {
+    let title = file_name(path);
+    let bytes = read_file(path, FILE_BYTES).map_err(|error| format!("{title} {error}"))?;
+    let found = NeededFiles::of_model(path, &bytes, cancel).map_err(|error| format!("{title} {error}"))?;
+    match found.reasons.into_iter().next() {
+        Some(reason) => Err(reason),
+        None => Ok(found.names.into_iter().collect()),
+    }
+}
+
+/// Returns the name of a file in a folder or below, as scripts write it; `None` where it is outside, also through links.
+fn name_inside(folder: &Path, root: &Folder, path: &Path) -> Option<String> {
+    let real = path.canonicalize().ok()?;
+    let is_it = |name: &String| root.path_of(name).is_ok_and(|found| found == real);
+    let real_folder = folder.canonicalize().ok()?;
+    let names = [name_below(folder, path), name_below(&real_folder, &real)];
+    names.into_iter().flatten().find(is_it)
+}
+
+/// Returns a path relative to a folder that contains it, with `/`, without looking at the disk; `None` where it is outside.
+pub fn name_below(folder: &Path, path: &Path) -> Option<String> {
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let (folder, path) = (absolute(folder), absolute(path));
+    let parts: Option<Vec<&str>> = path.strip_prefix(&folder).ok()?.components().map(part).collect();
+    parts.map(|parts| parts.join("/")).filter(|name| !name.is_empty())
+}
+
+fn part(part: Component<'_>) -> Option<&str> {
+    match part {
+        Component::Normal(name) => name.to_str(),
+        Component::Prefix(_) | Component::RootDir | Component::CurDir | Component::ParentDir => None,
+    }
+}

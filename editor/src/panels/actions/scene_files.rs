@@ -1,0 +1,163 @@
+//! Files that the scene gets: dropped or chosen ones, and those that were missing. What is outside of its folder is copied into it first.
+
+use super::scene_text::{add, step};
+use super::{added_files, files};
+use crate::panels::dialogs::{CopyQuestion, MissingQuestion};
+use crate::panels::dropped_files::{FileUse, WantedFiles};
+use crate::panels::file_choice::FileChoice;
+use crate::panels::request::Effect;
+use crate::panels::scene::NewThing;
+use crate::panels::status::MessageSeverity;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_script};
+use dragonfly_document::edit::ScriptLabel;
+use dragonfly_document::{
+    FoundFiles, MissingFile, SceneFile, SceneFileKind, SceneFiles, name_below, name_found_files,
+};
+use std::path::PathBuf;
+
+/// Gives files to the scene. They are used at once if all are in its folder.
+pub(super) fn want(
+    workspace: &mut Workspace,
+    wanted: Vec<(SceneFileKind, PathBuf)>,
+    used: FileUse,
+) -> Option<Effect> {
+    let folder = folder(workspace)?;
+    let file = |(kind, path): (SceneFileKind, PathBuf)| {
+        let name = name_below(&folder, &path);
+        SceneFile { name, ..SceneFile::new(kind, path) }
+    };
+    let files = wanted.into_iter().map(file).collect();
+    let wanted = Box::new(WantedFiles { files: SceneFiles { folder, files }, others: Vec::new(), used });
+    match wanted.files.are_inside() {
+        true => use_files(workspace, &wanted),
+        false => Some(Effect::LookAtFiles(wanted)),
+    }
+}
+
+/// Returns the folder of the scene; `None`, with a message, where it is in none.
+fn folder(workspace: &mut Workspace) -> Option<PathBuf> {
+    let folder = workspace.read().scene().and(workspace.read().model_folder());
+    if folder.is_none() {
+        workspace.say(MessageSeverity::Warning, "The scene is in no folder yet: save it first");
+    }
+    folder
+}
+
+/// Uses files of which a job has found out where they are, or asks whether those outside are copied. `copied` is the number of files that it
+/// has copied.
+pub(in crate::panels) fn answered(
+    workspace: &mut Workspace,
+    wanted: Box<WantedFiles>,
+    copied: usize,
+) -> Option<Effect> {
+    let is_open = workspace.read().scene().is_some();
+    if !is_open || workspace.read().model_folder().as_ref() != Some(&wanted.files.folder) {
+        workspace.say(MessageSeverity::Warning, "The scene is not open any more: its files were not added");
+        return None;
+    }
+    if !wanted.files.are_inside() {
+        files::ask(workspace, CopyQuestion { wanted }.into());
+        return None;
+    }
+    let effect = use_files(workspace, &wanted);
+    if copied > 0 {
+        let names: Vec<&str> = wanted.files.files.iter().filter_map(|file| file.name.as_deref()).collect();
+        let more = match copied.saturating_sub(names.len()) {
+            0 => String::new(),
+            1 => " and one more file".to_owned(),
+            more => format!(" and {more} more files"),
+        };
+        let text =
+            format!("Copied {}{more} into the folder of the scene; Undo leaves the copies", names.join(", "));
+        workspace.say(MessageSeverity::Info, text);
+    }
+    effect
+}
+
+/// Copies files after the user agreed.
+pub(super) fn copy(workspace: &mut Workspace, wanted: Box<WantedFiles>) -> Effect {
+    workspace.prompts.pop();
+    Effect::CopyFiles(wanted)
+}
+
+/// Uses files that are in the folder of the scene.
+fn use_files(workspace: &mut Workspace, wanted: &WantedFiles) -> Option<Effect> {
+    let WantedFiles { files: SceneFiles { folder, files }, used, .. } = wanted;
+    let named =
+        |kind| files.iter().filter(move |file| file.kind == kind).filter_map(|file| file.name.clone());
+    match used {
+        FileUse::Add(place) => {
+            let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
+            added_files::add(workspace, models, named(SceneFileKind::Sound).collect(), place.clone())
+        }
+        FileUse::Role => add(workspace, &NewThing::Role(named(SceneFileKind::Model).next()?)),
+        FileUse::Prop => add(workspace, &NewThing::Prop(named(SceneFileKind::Model).next()?)),
+        FileUse::Find => name_found(workspace, files),
+    }
+}
+
+/// Asks where a missing file is now.
+pub(super) fn find(workspace: &mut Workspace, missing: MissingFile) -> Option<Effect> {
+    let folder = folder(workspace)?;
+    let choice = match missing.kind {
+        SceneFileKind::Model => FileChoice::MissingModel,
+        SceneFileKind::Sound => FileChoice::MissingSound,
+    };
+    workspace.scene.set_finding(Some(missing));
+    Some(Effect::Choose(choice, Some(folder)))
+}
+
+/// Asks for the path of the missing file that the user looks for, on a desktop without a dialog for files.
+pub(super) fn type_path(workspace: &mut Workspace) {
+    if let Some(missing) = workspace.scene.finding().cloned() {
+        files::ask(workspace, MissingQuestion { missing }.into());
+    }
+}
+
+/// Uses a file in place of the missing one that the user looks for. Others that are missing may be next to it.
+pub(super) fn found(workspace: &mut Workspace, path: PathBuf) -> Option<Effect> {
+    let missing = workspace.scene.finding().cloned()?;
+    workspace.scene.set_finding(None);
+    let folder = folder(workspace)?;
+    let others = missing_files(workspace).into_iter().filter(|other| *other != missing).collect();
+    let file = SceneFile::new(missing.kind, path);
+    let files = vec![SceneFile { replaces: Some(missing), ..file }];
+    Some(Effect::LookAtFiles(Box::new(WantedFiles {
+        files: SceneFiles { folder, files },
+        others,
+        used: FileUse::Find,
+    })))
+}
+
+/// Returns the models and sounds of the scene that are missing.
+fn missing_files(workspace: &Workspace) -> Vec<MissingFile> {
+    let read = workspace.read();
+    let models = read.scene().into_iter().flat_map(|scene| scene.missing_models());
+    models.chain(read.scene_editing.sounds().missing()).collect()
+}
+
+/// Names the files that were found in the texts of the scene, in one step.
+fn name_found(workspace: &mut Workspace, files: &[SceneFile]) -> Option<Effect> {
+    const LABEL: ScriptLabel = ScriptLabel::FindFiles;
+    let found: Vec<(MissingFile, String)> =
+        files.iter().filter_map(|file| file.replaces.clone().zip(file.name.clone())).collect();
+    let view = workspace.model.view()?.scene.clone()?;
+    let effect = step(workspace, |base| {
+        let FoundFiles { script, others } =
+            name_found_files(&view, &base.script, &found).map_err(GestureRefusal)?;
+        let script = match script.list().is_empty() {
+            true => None,
+            false => Some(spliced_script(&base.script, &script)?),
+        };
+        let mut change = base.change(script.as_ref().unwrap_or(&base.script), LABEL, None);
+        change.also.extend(others);
+        Ok(change)
+    });
+    // A file of the same name may be there now.
+    workspace.scene.sounds_mut().look_again();
+    if effect.is_some() && found.len() > 1 {
+        workspace.say(MessageSeverity::Info, format!("Found {} files", found.len()));
+    }
+    effect
+}
