@@ -21,7 +21,7 @@ commands! {
     LineAsPath => When::Scene, "Use line as path", [], "Adds a path along the selected line, which roles can follow", scene_lines::use_as_path;
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking; cameras, props, lights and effects can follow it too", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected line of the project", scene_lines::delete;
-    SceneRename => When::Thing, "Rename thing", [], "Renames the selected thing wherever the script names it", |w| { scene::rename(w); None };
+    SceneRename => When::ThingOrLine, "Rename thing or line", [], "Renames the selected thing wherever the script names it, or the selected line", |w| { scene::rename(w); None };
     DropToGround => When::Thing, "Drop to the ground", [], "Moves the selected roles, props and marks up or down so that they stand on the ground", scene_ground::drop_selected;
     ToggleGroundSnap => When::Always, "Snap to the ground", [], "Keeps roles, props and marks on the ground while they are moved", |w| { scene_ground::toggle(w); None };
     AttachHere => When::Thing, "Attach to the bone under the pointer", [key(NONE, Key::J)], "Attaches the selected things to the bone or thing under the pointer, or to the one selected last, from the playhead on; they stay where they are. A model file dropped on a bone sits in its place instead", scene_attach::attach;
@@ -42,8 +42,8 @@ commands! {
     CutActions => When::Clip, "Cut actions", [], "Copies the selected actions and deletes them", scene_clipboard::cut;
     CopyActions => When::Clip, "Copy actions", [], "Copies the selected actions; Paste inserts them at the playhead, also for another role", scene_clipboard::copy;
     PasteActions => When::Scene, "Paste actions", [], "Pastes the copied actions at the playhead: for the selected role or prop, or, while an action is selected, for the things they were copied from", |_| Some(Effect::PastePose { mirrored: false });
-    SceneDuplicate => When::SceneItem, "Duplicate action or thing", [], "Duplicates the selected actions after the last of them ends, or the selected thing", scene_clips::duplicate;
-    SceneDelete => When::SceneItem, "Delete action or things", [], "Deletes the selected actions, or the selected things; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
+    SceneDuplicate => When::SceneItem, "Duplicate action, thing or line", [], "Duplicates the selected actions after the last of them ends, or the selected thing or line", scene_clips::duplicate;
+    SceneDelete => When::SceneItem, "Delete action, things or line", [], "Deletes the selected actions, or the selected things or line; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
     SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected actions; what follows stays where it is", |w| scene_clips::delete(w, true);
     ToggleSceneRipple => When::Always, "Ripple", [], "Lets what follows in a sequence move along with an action that is dragged; hold 2 for the other way", |w| { scene::toggle_ripple(w); None };
     EditSceneModel => When::Thing, "Edit takes and bones", [], "Opens the model of the selected thing, in place: its takes and bones", |w| { let thing = w.scene.things().last().cloned()?; scene::edit_model(w, &thing) };
