@@ -11,6 +11,7 @@ use dragonfly_document::edit::ScriptLabel;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::{Vec2, Vec3};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Opens the scene and attaches the camera `wide` to the view.
@@ -115,6 +116,7 @@ fn a_camera_stays_attached_while_the_document_has_not_answered() {
         also: Vec::new(),
         label: ScriptLabel::Type,
         gesture: None,
+        things: Arc::default(),
     };
     let sent = frame(bench, now, vec![Request::Scene(SceneRequest::Text(typed))]);
     let late = frame(bench, now, vec![Request::Wheel(12.0)]);
@@ -183,6 +185,7 @@ fn a_text_that_comes_after_its_drag_was_cancelled_is_not_shown() {
             also: Vec::new(),
             label: ScriptLabel::MoveThing,
             gesture: Some(gesture),
+            things: Arc::default(),
         };
         Request::Scene(SceneRequest::Text(change))
     };

@@ -164,3 +164,30 @@ fn the_gizmo_of_a_path_moves_turns_and_scales_all_of_its_points() {
     let found = numbers(&window, FOXES, "points");
     assert!(near(&found, &[-2.0, 0.0, -0.2, 0.0, 0.0, 1.0, 2.0, 0.0, -0.2]), "{found:?}");
 }
+
+#[test]
+fn the_gizmo_of_one_of_many_things_needs_no_memory_for_all_of_them_while_the_scene_plays() {
+    let marks: String = (0..3_000).map(|at| format!("    <mark id=\"m{at}\" at=\"{at} 0 0\"/>\n")).collect();
+    let script = FOXES.replacen("    <camera id=\"wide\"", &format!("{marks}    <camera id=\"wide\""), 1);
+    let mut bench = scene(&script);
+    let select = SceneRequest::SelectThings(vec!["ben".into()], Choice::Replace);
+    bench.state.execute(Request::Scene(select));
+    bench.state.execute(Request::Command(Id::PlayPause));
+    let start = bench.state.read().now;
+    let frame = |at: u32| start + std::time::Duration::from_millis(u64::from(at) * 17);
+    for at in 0..4 {
+        bench.state.begin_frame(frame(at));
+        bench.state.end_frame();
+    }
+    let pivot =
+        |bench: &crate::workbench::Workbench| bench.state.read().tools.controls().gizmo().gizmo.pivot();
+    let before = pivot(&bench);
+    let (allocated, ()) = dragonfly_kit::counting::count(|| {
+        for at in 100..110 {
+            bench.state.begin_frame(frame(at));
+            bench.state.end_frame();
+        }
+    });
+    assert_ne!(pivot(&bench), before, "it follows the thing that walks");
+    assert!(allocated.bytes < 10 * 3_000, "{allocated:?} in ten frames: less than a byte for each thing");
+}

@@ -5,9 +5,9 @@ use super::includes::{cut_out, including};
 use super::random_scripts;
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, attach_thing, cut_to,
-    delete_clip, duplicate_clip, face_thing, move_clip, place_thing, set_fade, set_repeat, set_speed,
-    trim_end, trim_start,
+    FadeEnd, Followers, GestureRefusal, GestureScene, MovedPart, SequenceOrder, add_clip, attach_thing,
+    cut_to, delete_clip, duplicate_clip, face_thing, move_clip, moved_along, place_thing, set_fade,
+    set_repeat, set_speed, stretch_to, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::script::StageRepeat;
@@ -69,6 +69,65 @@ fn a_clip_moved_in_a_par_gets_a_begin_after_that_of_the_par() {
     // A twenty-fourth of a second is a frame.
     let line = changed(PAR, |scene| moved(scene, "a", 1.0 + 1.0 / 24.0));
     assert_eq!(line, [r#"<play id="a" who="anna" take="Survey" begin="1f"/>"#]);
+}
+
+#[test]
+fn a_clip_is_stretched_to_an_end_by_its_speed_unless_something_else_decides_about_that() {
+    let stretched =
+        |actions: &str, to: f64| changed(actions, |scene| stretch_to(scene, called(scene, "a"), seconds(to)));
+    // The way is 5 m long: its speed is in meters per second, whatever its take walks.
+    let walk = r#"<move id="a" who="anna" path="aisle" take="Walk" begin="1"/>"#;
+    assert_eq!(
+        stretched(walk, 11.0),
+        [r#"<move id="a" who="anna" path="aisle" take="Walk" begin="1" speed="0.5"/>"#]
+    );
+    let fast = r#"<move id="a" who="anna" path="aisle" speed="5"/>"#;
+    assert_eq!(stretched(fast, 2.0), [r#"<move id="a" who="anna" path="aisle" speed="2.5"/>"#]);
+    // From 1 0 2 to 4 0 0, less the gap.
+    let to = r#"<move id="a" who="anna" to="4 0 2" speed="3"/>"#;
+    assert_eq!(stretched(to, 2.0), [r#"<move id="a" who="anna" to="4 0 2" speed="1.5"/>"#]);
+    let run = r#"<play id="a" who="anna" take="Run" speed="-2" repeat="3"/>"#;
+    let (_, plan) = (read(&fox_script(run)), planned(&fox_script(run), &assets(&fox())));
+    let length = plan.schedule().times()[1].end.seconds();
+    assert_eq!(
+        stretched(run, 2.0 * length),
+        [r#"<play id="a" who="anna" take="Run" speed="-1" repeat="3"/>"#]
+    );
+    for (actions, reason) in [
+        (walk.replace("begin", "dur=\"3\" begin"), "Its `dur` decides"),
+        (walk.replace("begin=\"1\"", "end=\"3\""), "Its `end` decides"),
+        (run.replace("repeat=\"3\"", "repeat=\"fill\""), "as long as there is time"),
+        ("<look id=\"a\" who=\"anna\" at=\"ben\"/>".to_owned(), "<look> has no speed"),
+    ] {
+        let (_, refused) = gesture(&actions, |scene| stretch_to(scene, called(scene, "a"), seconds(9.0)));
+        let refused = refused.expect_err("a refusal").0;
+        assert!(refused.contains(reason), "{actions}: {refused}");
+    }
+}
+
+#[test]
+fn what_follows_a_dragged_clip_and_what_refers_to_it_moves_along() {
+    let all = "<seq>\n  <play id=\"a\" who=\"anna\" take=\"Walk\"/>\n  <play id=\"b\" who=\"anna\" take=\"Survey\"/>\n  <play id=\"c\" who=\"anna\" take=\"Run\"/>\n</seq>\n<play id=\"d\" who=\"ben\" take=\"Walk\" begin=\"b.begin+1\"/>\n<play id=\"e\" who=\"ben\" take=\"Walk\" begin=\"b.end\"/>\n<title id=\"f\" text=\"x\" begin=\"3\" end=\"d.end\"/>";
+    let text = fox_script(all);
+    let script = read(&text);
+    let plan = planned(&text, &assets(&fox()));
+    let scene = GestureScene { script: &script, plan: &plan };
+    let along = |part: MovedPart, followers: Followers| {
+        let moved = moved_along(&scene, &[called(&scene, "b")], part, followers);
+        let mut found = String::new();
+        for id in ["a", "b", "c", "d", "e", "f"] {
+            let action = called(&scene, id);
+            found += if moved.begin(action) { id } else { "" };
+            found += &if moved.end(action) { id.to_uppercase() } else { String::new() };
+        }
+        found
+    };
+    assert_eq!(along(MovedPart::Whole, Followers::Follow), "bBcCdDeEF");
+    assert_eq!(along(MovedPart::Whole, Followers::Stay), "bBdDeEF");
+    assert_eq!(along(MovedPart::End, Followers::Follow), "BcCeE");
+    assert_eq!(along(MovedPart::End, Followers::Stay), "BeE");
+    assert_eq!(along(MovedPart::Begin, Followers::Follow), "bdDF");
+    assert_eq!(along(MovedPart::Neither, Followers::Follow), "bB");
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use super::actors::{assets, fox, fox_script, planned};
 use super::read;
-use dragonfly_anim::stage::gesture::{Followers, GestureScene, SequenceOrder, move_clip, trim_start};
+use dragonfly_anim::stage::gesture::{
+    Followers, GestureScene, SequenceOrder, move_clip, move_clips, trim_start,
+};
 use dragonfly_anim::stage::line::{DrawnLines, LineSamples};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::MOST_ERRORS;
@@ -89,6 +91,41 @@ fn a_gesture_reads_the_new_text_once() {
     for (what, (allocated, _)) in [("move", moved), ("trim", trimmed)] {
         let share = allocated.bytes as f64 / once.bytes as f64;
         assert!(share < 1.6, "{what}: {share} times the bytes of one reading");
+    }
+}
+
+#[test]
+fn many_clips_are_moved_with_as_few_readings_as_their_references_need() {
+    let mut actions = String::new();
+    for at in 0..10_000 {
+        // Of ten, the last one begins after the one before it, and so moves along.
+        let begin = if at % 10 == 9 { format!("p{}.end+0.25", at - 1) } else { at.to_string() };
+        let _ = writeln!(
+            actions,
+            "<play id=\"p{at}\" who=\"anna\" take=\"Survey\" begin=\"{begin}\" dur=\"0.5\"/>"
+        );
+    }
+    let text = fox_script(&actions);
+    let (once, script) = count(|| read(&text));
+    let plan = planned(&text, &assets(&fox()));
+    let scene = GestureScene { script: &script, plan: &plan };
+    let first = script.action_called("p5000").expect("an action");
+    let by = dragonfly_anim::stage::time::StageTime::from_seconds(0.125);
+    for (selected, changed) in [(20, 18), (1_000, 900)] {
+        let all: Vec<usize> = (first..first + selected).collect();
+        let (allocated, moved) =
+            count(|| move_clips(&scene, &all, by, SequenceOrder::Keep, Followers::Follow).expect("a text"));
+        let share = allocated.bytes as f64 / once.bytes as f64;
+        assert!(share < 6.0, "{selected} clips: {share} times the bytes of one reading");
+        let lines = text.lines().zip(moved.lines()).filter(|(old, new)| old != new).count();
+        assert_eq!(lines, changed, "those that move along keep their lines");
+        let after = planned(&moved, &assets(&fox()));
+        for action in first - 10..first + selected + 10 {
+            let [was, now] = [&plan, &after].map(|plan| plan.schedule().times()[action].begin);
+            let wanted =
+                if all.contains(&action) { by } else { dragonfly_anim::stage::time::StageTime::ZERO };
+            assert_eq!(now - was, wanted, "{action}");
+        }
     }
 }
 

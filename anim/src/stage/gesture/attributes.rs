@@ -2,7 +2,7 @@
 
 use super::draft::ScriptDraft;
 use super::mixes::{ActionOrigins, mixed};
-use super::scene::{GestureRefusal, GestureScene, refused};
+use super::scene::{GestureRefusal, GestureScene, NO_LENGTH, SHORTEST, refused};
 use super::trim::text;
 use crate::stage::script::StageRepeat;
 use crate::stage::time::StageTime;
@@ -62,6 +62,40 @@ pub fn set_speed(scene: &GestureScene<'_>, action: usize, speed: f64) -> Result<
         return refused(format!("The speed has to be {}", row.value.expected));
     }
     change(scene, action, "speed", (value != row.default).then_some(value))
+}
+
+/// Sets the speed with which an action ends at `to`: as often as it repeats, and backwards if it plays so.
+///
+/// # Errors
+///
+/// There is no such action, it has no speed, or none that brings its end there: its `dur`, its `end` or the time that there is decides.
+pub fn stretch_to(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Result<String, GestureRefusal> {
+    let element = scene.element(action)?;
+    let (own, times) = (&scene.script.actions()[action], scene.times(action));
+    let name = element.row.name;
+    if element.row.attribute("speed").is_none() {
+        return refused(format!("<{name}> has no speed"));
+    }
+    if let Some(decides) = ["dur", "end"].into_iter().find(|name| element.attribute(name).is_some()) {
+        return refused(format!("Its `{decides}` decides when this <{name}> ends: drag the end without Alt"));
+    }
+    let (StageRepeat::Times(repeat), false) = (own.repeat, own.passive) else {
+        return refused(format!("This <{name}> goes on for as long as there is time, whatever its speed"));
+    };
+    let now = (times.end - times.begin).seconds();
+    let new = (to - times.begin).max(SHORTEST).seconds();
+    if now <= 0.0 {
+        return refused(NO_LENGTH);
+    }
+    let way = element.value("who").and_then(|who| scene.plan.thing_called(who));
+    let way = way.and_then(|thing| scene.plan.way_length(thing, action));
+    let speed = match way {
+        // Meters per second, also where the stride of its take was the speed until now.
+        Some(way) => way * repeat.to_f64() / new,
+        None if name == "move" => return refused("The length of this way is not known"),
+        None => scene.script.speed(action).to_f64() * now / new,
+    };
+    set_speed(scene, action, speed)
 }
 
 /// Sets how often an action runs.

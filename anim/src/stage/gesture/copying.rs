@@ -14,6 +14,7 @@ use crate::stage::splice::{
 use crate::stage::table::ElementGroup;
 use crate::stage::time::{StageRate, StageTime, parse_time};
 use crate::stage::time_text::{moment_text, readable, time_text};
+use std::collections::BTreeSet;
 
 /// Start of a text of copied clips: that of a script without a cast.
 const HEAD: &str = "<script version=\"1\"";
@@ -61,6 +62,32 @@ pub fn is_copied_clips(text: &str) -> bool {
     text.starts_with(HEAD)
 }
 
+/// Returns the things that get clips where copied ones are pasted, by their ids; shots belong to none. `onto` is as for [`paste_clips`].
+///
+/// # Errors
+///
+/// The text is none of clips.
+pub fn things_of_pasted(copied: &str, onto: Option<&str>) -> Result<Vec<Box<str>>, GestureRefusal> {
+    let copied = ScriptTree::read(copied)?;
+    let clips: Vec<&ScriptElement> = copied.elements().iter().filter(|element| is_clip(element)).collect();
+    let onto = onto.filter(|_| are_of_one(clips.iter().copied()));
+    let whose = clips.iter().filter(|clip| clip.row.name != "shot").filter_map(|clip| clip.value("who"));
+    let whose: BTreeSet<&str> = whose.map(|who| onto.unwrap_or(who)).collect();
+    Ok(whose.into_iter().map(Box::from).collect())
+}
+
+/// Returns whether an element of a text of clips is one of them.
+fn is_clip(element: &ScriptElement) -> bool {
+    element.parent == Some(0) && element.row.group == ElementGroup::Action
+}
+
+/// Returns whether clips are of one thing: those of several ones stay with theirs.
+fn are_of_one<'a>(clips: impl Iterator<Item = &'a ScriptElement>) -> bool {
+    let mut from: Vec<&str> = clips.filter_map(|clip| clip.value("who")).collect();
+    from.dedup();
+    from.len() <= 1
+}
+
 /// Inserts copied clips, the first of them at `at`; all of them for the thing `onto`, or each for the one that it was copied from.
 ///
 /// # Errors
@@ -77,17 +104,12 @@ pub fn paste_clips(
     let rate = scene.script.rate();
     let from_rate = copied.elements()[0].value("fps").and_then(StageRate::parse).unwrap_or_default();
     let at = at.max(StageTime::ZERO);
-    let is_clip =
-        |element: &ScriptElement| element.parent == Some(0) && element.row.group == ElementGroup::Action;
     let clips: Vec<usize> =
         (0..copied.elements().len()).filter(|&element| is_clip(&copied.elements()[element])).collect();
     if clips.is_empty() {
         return refused("The clipboard contains no actions");
     }
-    let mut from: Vec<&str> = clips.iter().filter_map(|&clip| copied.elements()[clip].value("who")).collect();
-    from.dedup();
-    // Clips of several things stay with theirs.
-    let onto = onto.filter(|_| from.len() <= 1);
+    let onto = onto.filter(|_| are_of_one(clips.iter().map(|&clip| &copied.elements()[clip])));
     let mut origins = ActionOrigins::same(scene);
     let mut parts: Vec<(usize, ElementPlace, String)> = Vec::new();
     for clip in clips.into_iter().rev() {

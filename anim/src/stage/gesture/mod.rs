@@ -17,7 +17,7 @@
 //! | [`move_clip`] | `begin`; in a `seq` the order, where the middle of the clip passes that of a neighbor |
 //! | [`trim_start`] | `begin`, and `from` of a take (`to` of one that plays backwards), so that the rest stays where it is |
 //! | [`trim_end`] | `to` of a take, `repeat` beyond its end, otherwise `dur` or `end` |
-//! | [`set_fade`], [`set_speed`], [`set_repeat`] | the attribute; removed where it is the default |
+//! | [`set_fade`], [`set_speed`], [`stretch_to`], [`set_repeat`] | the attribute; removed where it is the default |
 //! | [`delete_clip`], [`duplicate_clip`] | one element |
 //! | [`move_clips`], [`delete_clips`] | the same for several actions |
 //! | [`delete_things`] | the elements of things and of the actions that name them |
@@ -33,6 +33,7 @@
 //! and a `begin` that refers to another action keeps that reference. A change after which an action that refers to the one before it as
 //! `prev` would have another one before it is refused, and so is one of what belongs to an included file: it is in another text.
 
+mod along;
 mod angles;
 mod attributes;
 mod begin;
@@ -54,10 +55,11 @@ mod several;
 mod thing_removal;
 mod trim;
 
+pub use along::{MovedPart, moved_along};
 pub use angles::{facing_and_tilt, turn_about_axes};
-pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed};
+pub use attributes::{FadeEnd, set_fade, set_repeat, set_speed, stretch_to};
 pub use cast::{delete_thing, duplicate_thing, rename_thing, set_on_thing, spliced_script};
-pub use copying::{copied_clips, duplicate_clips, is_copied_clips, paste_clips};
+pub use copying::{copied_clips, duplicate_clips, is_copied_clips, paste_clips, things_of_pasted};
 pub use draft::spliced_text;
 pub use holding::{HeldGrip, attach_splices, attach_thing, detach_splices, grip_splices};
 pub use insert::{add_clip, cut_to, follow_path};

@@ -6,13 +6,31 @@ use super::mixes::{ActionOrigins, mixed};
 use super::moving::{SequenceOrder, move_clip};
 use super::removal::{delete_clip, user_of};
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
-use crate::stage::schedule::resolve;
+use crate::stage::schedule::{MovedTimes, Schedule, TimeNode, resolve};
 use crate::stage::splice::{AttachedComments, TextSplices, delete};
 use crate::stage::time::{MILLISECOND, StageTime};
 use std::borrow::Cow;
 
-/// Number of times that begins are corrected which depend on others that move too.
-const MOST_ROUNDS: usize = 3;
+/// Number of times that a begin is corrected which depends on others that move too.
+const MOST_TRIES: u8 = 3;
+
+/// An action, and the time at which it is to begin.
+struct ClipTarget {
+    action: usize,
+    begin: StageTime,
+    /// Number of times that its begin was written.
+    tries: u8,
+}
+
+impl ClipTarget {
+    fn new(action: usize, begin: StageTime) -> Self {
+        Self { action, begin, tries: 0 }
+    }
+}
+
+fn begin_of(schedule: &Schedule, action: usize) -> StageTime {
+    schedule.times().get(action).copied().unwrap_or_default().begin
+}
 
 /// Moves actions by the same time; the first one begins at zero at the earliest. Several of them keep their order in a `seq`, and one is moved
 /// as by [`move_clip`].
@@ -36,36 +54,52 @@ pub fn move_clips(
     let lengths = scene.lengths();
     let mut script = Cow::Borrowed(scene.script);
     let mut schedule = Cow::Borrowed(scene.schedule());
-    let mut targets: Vec<(usize, StageTime)> =
-        actions.iter().map(|&action| (action, scene.times(action).begin + by)).collect();
+    let mut targets: Vec<ClipTarget> =
+        actions.iter().map(|&action| ClipTarget::new(action, scene.times(action).begin + by)).collect();
     if followers == Followers::Stay {
         let moves = |&&action: &&usize| !ends_with_another(scene, action);
         let after = |action: &usize| kept_follower(scene, *action, by).and(scene.script.next_in_seq(*action));
-        let stay = actions.iter().filter(moves).filter_map(after).filter(|next| !actions.contains(next));
-        targets.extend(stay.map(|next| (next, scene.times(next).begin)));
+        let stay = actions
+            .iter()
+            .filter(moves)
+            .filter_map(after)
+            .filter(|next| actions.binary_search(next).is_err());
+        targets.extend(stay.map(|next| ClipTarget::new(next, scene.times(next).begin)));
     }
-    // Those that begin first, first: what depends on them has moved along then.
-    targets.sort_by_key(|&(action, _)| (scene.times(action).begin, action));
-    for _ in 0..MOST_ROUNDS {
-        let mut is_done = true;
-        for &(action, target) in &targets {
-            let rest = target - schedule.times().get(action).copied().unwrap_or_default().begin;
+    loop {
+        let wrong: Vec<(usize, StageTime)> = targets
+            .iter()
+            .enumerate()
+            .filter(|(_, target)| target.tries < MOST_TRIES)
+            .map(|(at, target)| (at, target.begin - begin_of(&schedule, target.action)))
             // As near as begins are written.
-            if rest.ticks().abs() < MILLISECOND.ticks() {
+            .filter(|(_, rest)| rest.ticks().abs() >= MILLISECOND.ticks())
+            .collect();
+        if wrong.is_empty() {
+            break;
+        }
+        // A clip that depends on another one of them waits: it moves along, most likely to the right time.
+        let begins: Vec<TimeNode> =
+            wrong.iter().map(|&(at, _)| TimeNode::Begin(targets[at].action)).collect();
+        let along = MovedTimes::by_others(&script, &begins);
+        let next = GestureScene { script: &script, plan: scene.plan };
+        let mut changes: Vec<AttributeChange<'_>> = Vec::new();
+        for &(at, rest) in &wrong {
+            let target = &mut targets[at];
+            if along.begin(target.action) {
                 continue;
             }
-            is_done = false;
-            let next = GestureScene { script: &script, plan: scene.plan };
-            let begin = moved_moment(&next, action, "begin", rest);
-            let mut changes: Vec<AttributeChange<'_>> = vec![begin.change];
-            changes.extend(following_end(&next, action, begin.by));
-            if let Some(changed) = ScriptDraft::of(&script).with(&changes)?.read()? {
-                schedule = Cow::Owned(resolve(&changed, &lengths)?);
-                script = Cow::Owned(changed);
-            }
+            target.tries += 1;
+            let begin = moved_moment(&next, target.action, "begin", rest);
+            changes.push(begin.change);
+            changes.extend(following_end(&next, target.action, begin.by));
         }
-        if is_done {
+        if changes.is_empty() {
             break;
+        }
+        if let Some(changed) = ScriptDraft::of(&script).with(&changes)?.read()? {
+            schedule = Cow::Owned(resolve(&changed, &lengths)?);
+            script = Cow::Owned(changed);
         }
     }
     let draft = ScriptDraft::of(scene.script).becoming(&script);
@@ -95,13 +129,13 @@ pub fn delete_clips(
     }
     let mut kept: Vec<AttributeChange<'_>> = Vec::new();
     for &action in &actions {
-        let next = scene.script.next_sibling(action).filter(|next| !actions.contains(next));
+        let next = scene.script.next_sibling(action).filter(|next| actions.binary_search(next).is_err());
         keeps_prev(scene.script, next)?;
         if followers == Followers::Stay && next.is_some() {
             // The first of those that are deleted together.
             let mut first = action;
             while let Some(before) =
-                scene.script.before_in_seq(first).filter(|before| actions.contains(before))
+                scene.script.before_in_seq(first).filter(|before| actions.binary_search(before).is_ok())
             {
                 first = before;
             }

@@ -275,6 +275,11 @@ impl StagePlan {
         self.things.get(thing)?.places.in_progress(time)
     }
 
+    /// Returns the length of the way on which an action leads a thing, meters; `None` for an action that leads it nowhere.
+    pub fn way_length(&self, thing: usize, action: usize) -> Option<f64> {
+        self.things.get(thing)?.places.way_length(action)
+    }
+
     /// Returns what holds a thing in `scene`, which [`Self::scene_at`] wrote; `None` where its own motions decide where it is, and past the end.
     pub fn hold_of(&self, thing: usize, scene: &StageScene) -> Option<ThingHold> {
         let same_cast = scene.things.len() == self.things.len();

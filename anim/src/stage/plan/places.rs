@@ -123,6 +123,15 @@ pub(super) struct PlaceLane {
 }
 
 impl PlaceLane {
+    /// Returns the length of the way of an action, meters; `None` for one without a way.
+    pub(super) fn way_length(&self, action: usize) -> Option<f64> {
+        let cue = self.cues.iter().find(|cue| cue.action == action)?;
+        match &cue.kind {
+            MotionKind::Follow(follower) => Some(follower.path.length()),
+            MotionKind::Put { .. } | MotionKind::Turn { .. } | MotionKind::Travel { .. } => None,
+        }
+    }
+
     /// Returns the placement at `time`.
     pub(super) fn at(&self, time: StageTime) -> Placement {
         self.before(self.cues.len(), time, MOST_FADES)

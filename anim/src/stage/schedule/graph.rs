@@ -4,7 +4,7 @@ use crate::stage::script::{ActionMoment, StageScript};
 
 /// A time to compute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum TimeNode {
+pub(in crate::stage) enum TimeNode {
     /// The begin of an action.
     Begin(usize),
     /// The end of an action.

@@ -4,8 +4,11 @@
 //! depth first with a stack of our own, so that neither depth nor size can overflow that of the thread, in time in proportion to the script.
 
 mod graph;
+mod moved;
 mod resolve;
 
+pub(in crate::stage) use graph::TimeNode;
+pub use moved::MovedTimes;
 pub use resolve::resolve;
 
 use crate::stage::script::ScriptError;

@@ -9,6 +9,7 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::DocumentMessage;
 use dragonfly_document::bones::Choice;
+use dragonfly_picture::ThroughCamera;
 
 /// Returns the command that is run in place of another one: those of scenes while a scene is open, and the pose line in place of lines of a project
 /// while a model is.
@@ -48,7 +49,7 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Cursor(at) => workspace.scene.select_at(at),
         SceneRequest::Hide(things, hide) => workspace.scene.hide(things, hide),
         SceneRequest::Lock(things, lock) => workspace.scene.lock(things, lock),
-        SceneRequest::Rename(thing) => workspace.scene.rename(thing),
+        SceneRequest::Rename(thing) => rename_thing(workspace, thing),
         SceneRequest::Window(window) => workspace.scene.set_window(window),
         SceneRequest::Refused(reason) => workspace.say(MessageSeverity::Info, reason),
         SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
@@ -63,10 +64,23 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
     None
 }
 
-/// Starts to rename the active thing.
+/// Starts to rename the selected line, or the active thing.
 pub(in crate::panels) fn rename(workspace: &mut Workspace) {
-    let thing = workspace.scene.things().last().cloned();
-    workspace.scene.rename(thing);
+    match workspace.scene.lines().selected().map(Box::from) {
+        Some(line) => workspace.scene.lines_mut().rename(Some(line)),
+        None => {
+            let thing = workspace.scene.things().last().cloned();
+            rename_thing(workspace, thing);
+        }
+    }
+}
+
+/// Starts to rename a thing, unless it is locked, or ends it.
+fn rename_thing(workspace: &mut Workspace, thing: Option<Box<str>>) {
+    match workspace.scene.lock_refusal(thing.as_slice()) {
+        Some(reason) => workspace.say(MessageSeverity::Info, reason),
+        None => workspace.scene.rename(thing),
+    }
 }
 
 /// Switches whether what follows in a sequence moves along.
@@ -120,7 +134,13 @@ pub(super) fn opened(workspace: &mut Workspace) {
 pub(super) fn follow(workspace: &mut Workspace, answered: u64) {
     let Some(view) = workspace.model.view() else { return };
     let scene = view.scene.clone();
-    workspace.scene.update(scene.as_deref(), answered);
+    let renamed = workspace.scene.update(scene.as_deref(), answered);
+    if let ThroughCamera::Of(camera) = workspace.camera.through()
+        && let Some(new) = renamed.new_name(camera)
+    {
+        let new = ThroughCamera::Of(new.into());
+        workspace.camera.set_through(new);
+    }
     let Some(script) = scene.as_ref().and_then(|scene| scene.script.as_ref()) else { return };
     let rate = script.rate().per_second().round() as u32;
     if workspace.frame_rate.get() != rate {

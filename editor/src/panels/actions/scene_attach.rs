@@ -4,6 +4,7 @@ use super::scene_gizmo::joined;
 use super::scene_probe::{pointer, surface_at};
 use super::scene_text::gesture;
 use crate::panels::request::Effect;
+use crate::panels::scene::ChangedThings;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
@@ -32,7 +33,7 @@ pub(in crate::panels) fn attach(workspace: &mut Workspace) -> Option<Effect> {
         }
     };
     let at = workspace.read().scene_time();
-    let effect = gesture(workspace, ScriptLabel::Attach, |base| {
+    let effect = gesture(workspace, ScriptLabel::Attach, ChangedThings::Things(&things), |base| {
         let mut state = base.plan.new_scene();
         base.plan.scene_at(at, &mut state);
         let by = base.plan.place_of_name(&holder, &state);
@@ -61,7 +62,7 @@ pub(in crate::panels) fn attach(workspace: &mut Workspace) -> Option<Effect> {
 /// Detaches the selected things from what holds them at the playhead. They stay where they are.
 pub(in crate::panels) fn detach(workspace: &mut Workspace) -> Option<Effect> {
     let (things, at) = (unlocked(workspace), workspace.read().scene_time());
-    gesture(workspace, ScriptLabel::Detach, |base| {
+    gesture(workspace, ScriptLabel::Detach, ChangedThings::Things(&things), |base| {
         let mut state = base.plan.new_scene();
         base.plan.scene_at(at, &mut state);
         let is_held = |id: &str| {

@@ -3,7 +3,7 @@
 use super::scene_gizmo::spliced;
 use super::scene_moves::{BaseMoment, distance_of_look, tracked};
 use super::scene_text::text_change;
-use crate::panels::scene::{SceneBase, ScriptChange};
+use crate::panels::scene::{ChangedThings, SceneBase, ScriptChange};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::bounds::Sphere;
@@ -175,5 +175,5 @@ fn moved_camera(
         let look = eye - moved.back() * distance_of_look(&base, id, before);
         parts.push(moment.looking(id, look)?);
     }
-    spliced(workspace, &base, parts, ScriptLabel::MoveCamera, gesture)
+    spliced(workspace, &base, parts, (ScriptLabel::MoveCamera, ChangedThings::Thing(id)), gesture)
 }

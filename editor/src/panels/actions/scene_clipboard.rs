@@ -1,13 +1,13 @@
 //! Actions of a scene through the clipboard.
 
 use super::scene_clips::unlocked_actions;
-use super::scene_text::gesture;
+use super::scene_text::step;
 use crate::panels::count_text::count;
 use crate::panels::request::Effect;
-use crate::panels::scene::SceneBase;
+use crate::panels::scene::{ChangedThings, SceneBase};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::stage::gesture::{copied_clips, is_copied_clips, paste_clips};
+use dragonfly_anim::stage::gesture::{copied_clips, is_copied_clips, paste_clips, things_of_pasted};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
 use std::sync::Arc;
@@ -56,12 +56,11 @@ pub(super) fn paste(workspace: &mut Workspace, text: &str) -> Option<Effect> {
         ([], [thing]) => Some(thing.clone()),
         _ => None,
     };
-    if let Some(locked) = onto.as_deref().filter(|thing| workspace.scene.is_locked(thing)) {
-        let text = format!("{locked} is locked");
-        workspace.say(MessageSeverity::Info, text);
-        return None;
-    }
-    gesture(workspace, ScriptLabel::Paste, |base| paste_clips(&base.scene(), text, at, onto.as_deref()))
+    step(workspace, |base| {
+        let things = things_of_pasted(text, onto.as_deref())?;
+        let pasted = paste_clips(&base.scene(), text, at, onto.as_deref())?;
+        Ok(base.step(pasted, ScriptLabel::Paste, ChangedThings::Things(&things)))
+    })
 }
 
 /// Selects all actions of the timeline.

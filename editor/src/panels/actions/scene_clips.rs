@@ -1,10 +1,10 @@
 //! Commands on the selected action of a scene.
 
-use super::playback;
 use super::scene_text::{gesture, step as step_of_texts};
+use super::{playback, scene_lines};
 use crate::panels::request::Effect;
 use crate::panels::scene::shots::shots_of;
-use crate::panels::scene::{SceneBase, move_label};
+use crate::panels::scene::{ChangedThings, SceneBase, move_label};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
@@ -24,10 +24,10 @@ fn followers(workspace: &Workspace) -> Followers {
 /// Returns the selected actions, unless the thing of one of them is locked.
 pub(super) fn unlocked_actions(workspace: &mut Workspace) -> Option<Vec<usize>> {
     let actions = workspace.scene.actions().to_vec();
-    let lane = |&action: &usize| workspace.scene.lanes().bar_of(action).map(|(lane, _)| lane.name.clone());
-    match actions.iter().filter_map(lane).find(|lane| workspace.scene.is_locked(lane)) {
-        Some(lane) => {
-            workspace.say(MessageSeverity::Info, format!("{lane} is locked"));
+    let script = workspace.model.view()?.scene.as_ref()?.script.as_ref()?;
+    match workspace.scene.lock_refusal(&ChangedThings::Actions(&actions).ids(script)) {
+        Some(reason) => {
+            workspace.say(MessageSeverity::Info, reason);
             None
         }
         None => Some(actions).filter(|actions| !actions.is_empty()),
@@ -50,7 +50,7 @@ fn first_begin(base: &SceneBase, actions: &[usize]) -> StageTime {
 pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (actions, at, followers) =
         (unlocked_actions(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, move_label(&actions), |base| {
+    gesture(workspace, move_label(&actions), ChangedThings::Actions(&actions), |base| {
         let by = at - first_begin(base, &actions);
         move_clips(&base.scene(), &actions, by, SequenceOrder::Keep, followers)
     })
@@ -59,7 +59,7 @@ pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect
 /// Moves the selected actions by frames.
 pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option<Effect> {
     let (actions, followers) = (unlocked_actions(workspace)?, followers(workspace));
-    gesture(workspace, move_label(&actions), |base| {
+    gesture(workspace, move_label(&actions), ChangedThings::Actions(&actions), |base| {
         let rate = base.script.rate();
         let begin = first_begin(base, &actions);
         let frame = rate.nearest_frame(begin);
@@ -73,28 +73,37 @@ pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option
 /// Lets the selected action start at the playhead.
 pub(in crate::panels) fn start_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at) = (unlocked_action(workspace)?, workspace.read().scene_time());
-    gesture(workspace, ScriptLabel::TrimStart, |base| trim_start(&base.scene(), action, at))
+    gesture(workspace, ScriptLabel::TrimStart, ChangedThings::Actions(&[action]), |base| {
+        trim_start(&base.scene(), action, at)
+    })
 }
 
 /// Lets the selected action end at the playhead.
 pub(in crate::panels) fn end_to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (action, at, followers) =
         (unlocked_action(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, ScriptLabel::TrimEnd, |base| trim_end(&base.scene(), action, at, followers))
+    gesture(workspace, ScriptLabel::TrimEnd, ChangedThings::Actions(&[action]), |base| {
+        trim_end(&base.scene(), action, at, followers)
+    })
 }
 
-/// Duplicates the selected actions after the last of them ends, or the selected things.
+/// Duplicates the selected actions after the last of them ends, or the selected things, or the selected line.
 pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
+    if workspace.scene.lines().selected().is_some() {
+        return scene_lines::duplicate(workspace);
+    }
     if workspace.scene.action().is_some() {
         let actions = unlocked_actions(workspace)?;
-        return gesture(workspace, ScriptLabel::Duplicate, |base| duplicate_clips(&base.scene(), &actions));
+        return gesture(workspace, ScriptLabel::Duplicate, ChangedThings::Actions(&actions), |base| {
+            duplicate_clips(&base.scene(), &actions)
+        });
     }
     let things = workspace.scene.things().to_vec();
     let mut copies = Vec::new();
     let effect = step_of_texts(workspace, |base| {
         let (script, ids) = duplicated(base, &things)?;
         copies = ids;
-        Ok(base.change(&script, ScriptLabel::Duplicate, None))
+        Ok(base.change(&script, ScriptLabel::Duplicate, None, ChangedThings::None))
     });
     if effect.is_some() {
         // The copies lie on the originals: what is dragged next is a copy.
@@ -103,14 +112,22 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
     effect
 }
 
-/// Deletes the selected action, or the selected things. With `lift` what follows an action stays where it is.
+/// Deletes the selected actions, or the selected things, or the selected line. With `lift` what follows an action stays where it is.
 pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option<Effect> {
+    if workspace.scene.lines().selected().is_some() {
+        return scene_lines::delete(workspace);
+    }
     if workspace.scene.action().is_some() {
         let actions = unlocked_actions(workspace)?;
         let followers = if lift { Followers::Stay } else { followers(workspace) };
-        return gesture(workspace, ScriptLabel::Delete, |base| {
+        let effect = gesture(workspace, ScriptLabel::Delete, ChangedThings::Actions(&actions), |base| {
             delete_clips(&base.scene(), &actions, followers)
         });
+        if effect.is_some() {
+            // Of those that are left, none may be taken for one of them.
+            workspace.scene.select_action(None);
+        }
+        return effect;
     }
     let things: Vec<Box<str>> =
         workspace.scene.things().iter().filter(|thing| !workspace.scene.is_locked(thing)).cloned().collect();
@@ -135,7 +152,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         }
         let (script, deleted) = delete_things(&base.scene(), &ids)?;
         actions = deleted;
-        Ok(base.change(&script, ScriptLabel::Delete, None))
+        Ok(base.change(&script, ScriptLabel::Delete, None, ChangedThings::Things(&things)))
     });
     if effect.is_some() && actions > 0 {
         let what = if actions == 1 {
@@ -170,7 +187,7 @@ fn duplicated(base: &SceneBase, things: &[Box<str>]) -> Result<(StageScript, Vec
 /// Inserts a shot of the camera after the one that is seen at the playhead.
 pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
-    gesture(workspace, ScriptLabel::AddShot, |base| {
+    gesture(workspace, ScriptLabel::AddShot, ChangedThings::None, |base| {
         let cameras: Vec<&str> = base
             .plan
             .things()
@@ -194,7 +211,7 @@ pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect
 /// Inserts a shot of the selected camera.
 pub(in crate::panels) fn cut_to_selected(workspace: &mut Workspace) -> Option<Effect> {
     let (at, camera) = (workspace.read().scene_time(), workspace.scene.things().last()?.clone());
-    gesture(workspace, ScriptLabel::AddShot, |base| cut_to(&base.scene(), &camera, at))
+    gesture(workspace, ScriptLabel::AddShot, ChangedThings::None, |base| cut_to(&base.scene(), &camera, at))
 }
 
 /// Moves the playhead to the start of the next shot, or of the one before the playhead.

@@ -4,6 +4,7 @@ use super::scene_ground;
 use super::scene_probe::surface_at;
 use super::scene_text::step;
 use crate::panels::request::Effect;
+use crate::panels::scene::ChangedThings;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
@@ -77,7 +78,7 @@ pub(super) fn pick(workspace: &mut Workspace, at: Pos2, choice: Choice) -> Optio
         let element = base.script.thing_element(&camera).ok_or_else(refused)?;
         in_scene_texts(base.script.tree(), element)?;
         let splices = set_on_thing(&base.script, element, "focus", Some(&focus)).ok_or_else(refused)?;
-        base.spliced(&splices, ScriptLabel::Focus, None)
+        base.spliced(&splices, ScriptLabel::Focus, None, ChangedThings::Thing(&camera))
     })
 }
 

@@ -3,11 +3,11 @@
 use super::scene_ground::{heights_on_ground, on_ground};
 use super::scene_moves::BaseMoment;
 use crate::panels::request::Effect;
-use crate::panels::scene::{SceneBase, ScriptChange};
+use crate::panels::scene::{ChangedThings, SceneBase, ScriptChange};
 use crate::panels::status::MessageSeverity;
 use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
+use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::stage::gesture::{GestureRefusal, written_points};
 use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
@@ -15,7 +15,7 @@ use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::history::Gesture;
 use dragonfly_picture::gizmo::{PosedSkeleton, Tool};
-use glam::{DVec3, Mat4, Vec3};
+use glam::{DVec3, Vec3};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -26,7 +26,11 @@ pub(super) fn sync(workspace: &mut Workspace, placement: PlacedGizmo) {
     let time = workspace.read().scene_time();
     let mut bones = placement.bones;
     bones.clear();
-    let selected = workspace.scene.things().iter().filter(|id| !workspace.scene.is_hidden(id));
+    // Locked things stay where they are while others are moved.
+    let shows_locked = all_are_locked(workspace);
+    let is_shown =
+        |id: &str| !workspace.scene.is_hidden(id) && (shows_locked || !workspace.scene.is_locked(id));
+    let selected = workspace.scene.things().iter().filter(|id| is_shown(id));
     let things = selected.filter_map(|id| plan.thing_called(id));
     if placement.tool.is_some() {
         let has_gizmo = |&thing: &usize| {
@@ -44,17 +48,17 @@ pub(super) fn sync(workspace: &mut Workspace, placement: PlacedGizmo) {
     if !workspace.tools.is_placed_elsewhere(&placement) {
         return workspace.tools.reuse(placement);
     }
-    let mut places: Vec<Transform> =
-        workspace.stage.things_at(plan, time).things.iter().map(|thing| thing.transform).collect();
-    for &thing in &placement.bones {
-        let (place, id) = (&mut places[thing as usize], &plan.things()[thing as usize].id);
-        place.translation = middle_of_path(&scene, id).unwrap_or(place.translation);
+    let mut poses = workspace.stage.take_poses();
+    let shown = workspace.stage.things_at(plan, time);
+    poses.resize(plan.things().len());
+    for &bone in &placement.bones {
+        let (planned, thing) = (&plan.things()[bone as usize], &shown.things[bone as usize]);
+        let mut place = thing.transform;
+        place.translation = middle_of_path(&scene, &planned.id).unwrap_or(place.translation);
+        poses.set(bone as usize, place);
     }
-    let to_root: Vec<Mat4> = places.iter().map(|place| place.to_matrix()).collect();
-    let bone = |place: &Transform| Bone { rest: *place, ..Bone::root("") };
-    let skeleton = Skeleton { bones: places.iter().map(bone).collect() };
-    let pose = PosedSkeleton { skeleton: &skeleton, poses: &places, to_root: &to_root };
-    workspace.tools.place_gizmo(pose, placement, !refused);
+    workspace.tools.place_gizmo(poses.posed(), placement, !refused);
+    workspace.stage.keep_poses(poses);
 }
 
 /// Returns the middle of the points of a path, at which its gizmo is; `None` for other things, and for a path along a line.
@@ -77,10 +81,29 @@ fn put_away(workspace: &mut Workspace, placement: PlacedGizmo) {
 
 /// Returns why the selected things cannot be moved; `None` if they can.
 fn refusal(workspace: &Workspace, scene: &SceneView) -> Option<GestureRefusal> {
-    let locked = workspace.scene.things().iter().find(|id| workspace.scene.is_locked(id));
-    match locked {
-        Some(id) => Some(GestureRefusal(format!("{id} is locked"))),
+    match workspace.scene.lock_refusal(workspace.scene.things()).filter(|_| all_are_locked(workspace)) {
+        Some(reason) => Some(GestureRefusal(reason)),
         None => SceneBase::of(scene, workspace.scene.text(scene)).err(),
+    }
+}
+
+/// Returns whether none of the selected things can be moved, because all are locked.
+fn all_are_locked(workspace: &Workspace) -> bool {
+    workspace.scene.things().iter().all(|id| workspace.scene.is_locked(id))
+}
+
+/// Reports which of the selected things stay where they are while the others are moved.
+fn say_what_stays(workspace: &mut Workspace, refused: &[GestureRefusal]) {
+    let things = workspace.scene.things().iter().map(|id| &**id);
+    let locked: Vec<&str> = things.filter(|id| workspace.scene.is_locked(id)).collect();
+    let locked = match locked[..] {
+        [] => None,
+        [id] => Some(format!("{id} is locked and stays")),
+        _ => Some(format!("{} things are locked and stay", locked.len())),
+    };
+    let refused = refused.iter().map(|refusal| format!("{refusal}; it stays"));
+    for text in locked.into_iter().chain(refused).collect::<Vec<String>>() {
+        workspace.say(MessageSeverity::Info, text);
     }
 }
 
@@ -140,21 +163,38 @@ fn change(workspace: &mut Workspace) -> Result<Option<ScriptChange>, GestureRefu
     let things = workspace.stage.base_things(&base.plan, time);
     let moment = BaseMoment { base: &base, things, time, is_keyed };
     let gizmo = &workspace.tools.controls().gizmo().gizmo;
-    let mut parts = Vec::new();
+    let (mut parts, mut moved, mut refused) = (Vec::new(), Vec::<Box<str>>::new(), Vec::new());
     for (drag, before) in gizmo.drag().bones.iter().zip(gizmo.before()) {
         let (thing, mut now) = (drag.bone as usize, drag.to_parent);
         let height = heights.as_ref().and_then(|heights| heights.get(&thing).copied());
         if let Some(height) = height {
             now.translation = on_ground(&base.plan, thing, now.translation, height);
         }
-        moment.moved(thing, gizmo.tool, [now, before.to_parent], &mut parts)?;
+        let mut own = Vec::new();
+        match moment.moved(thing, gizmo.tool, [now, before.to_parent], &mut own) {
+            Ok(()) => {
+                parts.extend(own);
+                moved.extend(base.plan.things().get(thing).map(|planned| planned.id.clone()));
+            }
+            Err(refusal) => refused.push(refusal),
+        }
     }
     let label = match gizmo.tool {
         Tool::Move => ScriptLabel::MoveThing,
         Tool::Rotate => ScriptLabel::TurnThing,
         Tool::Scale => ScriptLabel::ScaleThing,
     };
-    spliced(workspace, &base, parts, label, gesture)
+    if moved.is_empty()
+        && let Some(refusal) = refused.first()
+    {
+        return Err(refusal.clone());
+    }
+    let is_first = workspace.tools.drag().gesture().is_none();
+    let change = spliced(workspace, &base, parts, (label, ChangedThings::Things(&moved)), gesture)?;
+    if is_first && change.is_some() {
+        say_what_stays(workspace, &refused);
+    }
+    Ok(change)
 }
 
 /// Returns the heights at which things stay while they are moved on the ground; `None` while they may leave it.
@@ -189,12 +229,12 @@ pub(super) fn spliced(
     workspace: &mut Workspace,
     base: &SceneBase,
     parts: Vec<TextSplices>,
-    label: ScriptLabel,
+    (label, things): (ScriptLabel, ChangedThings<'_>),
     gesture: Gesture,
 ) -> Result<Option<ScriptChange>, GestureRefusal> {
     let splices = joined(parts)?;
     if !workspace.stage.is_new(&splices) {
         return Ok(None);
     }
-    base.spliced(&splices, label, Some(gesture)).map(Some)
+    base.spliced(&splices, label, Some(gesture), things).map(Some)
 }

@@ -5,6 +5,7 @@ use super::scene_moves::BaseMoment;
 use super::scene_probe::{pointer, ray_at};
 use super::scene_text::step;
 use crate::panels::request::Effect;
+use crate::panels::scene::ChangedThings;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_anim::stage::{PlannedThing, StagePlan};
@@ -52,7 +53,7 @@ pub(in crate::panels) fn drop_selected(workspace: &mut Workspace) -> Option<Effe
             moment.placed(thing, on_ground(&base.plan, thing, place, height), None)
         };
         let parts: Result<Vec<_>, GestureRefusal> = standing.into_iter().map(placed).collect();
-        base.spliced(&joined(parts?)?, ScriptLabel::DropToGround, None)
+        base.spliced(&joined(parts?)?, ScriptLabel::DropToGround, None, ChangedThings::Things(&selected))
     })
 }
 

@@ -2,12 +2,14 @@
 
 use super::line_edit::{NO_PROJECT, lines_edit, lines_edit_of};
 use super::scene_probe::{PointedSurface, pointer, surface_at};
-use super::scene_text::{self, gesture};
+use super::scene_text::{self, step};
 use super::{pose_line, tools};
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::control::{Button, InputEvent};
 use crate::panels::request::Effect;
-use crate::panels::scene::{LineEraser, LineRequest, NewThing, begin_text, line_name, line_named};
+use crate::panels::scene::{
+    ChangedThings, LineEraser, LineRequest, NewThing, begin_text, line_name, line_named,
+};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, follow_path};
@@ -69,7 +71,11 @@ pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<
 pub(super) fn perform(workspace: &mut Workspace, request: LineRequest) -> Option<Effect> {
     match request {
         LineRequest::Select(line) => {
-            workspace.scene.lines_mut().select(line);
+            workspace.scene.select_line(line);
+            None
+        }
+        LineRequest::Rename(line) => {
+            workspace.scene.lines_mut().rename(line);
             None
         }
         LineRequest::Hide(line, hide) => {
@@ -85,10 +91,14 @@ pub(super) fn perform(workspace: &mut Workspace, request: LineRequest) -> Option
             })
         }
         LineRequest::Delete(line) => {
-            change_line(workspace, ScriptLabel::EraseLine, &line, DrawnLines::removed)
+            let effect = change_line(workspace, ScriptLabel::EraseLine, &line, DrawnLines::removed);
+            if effect.is_some() && workspace.scene.lines().selected() == Some(&*line) {
+                workspace.scene.select_line(None);
+            }
+            effect
         }
         LineRequest::UseAsPath(line) => {
-            workspace.scene.lines_mut().select(Some(line));
+            workspace.scene.select_line(Some(line));
             use_as_path(workspace)
         }
     }
@@ -107,8 +117,7 @@ fn draw_path(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
 /// Adds a line to the project.
 fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> {
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
-    let taken = |id: &str| scene.lines.as_ref().is_some_and(|lines| lines.called(id).is_some());
-    let id = (1_u32..).map(|number| format!("line-{number}")).find(|id| !taken(id))?;
+    let id = free_line_name(&scene)?;
     let mut points = stroke.control.clone();
     let on = |name: &str| ("on".to_owned(), name.to_owned());
     let mut attributes = match stroke.on {
@@ -143,7 +152,7 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
         TextSplices::joined(ended.chain([lines.added(&line)]).collect::<Option<Vec<_>>>()?)
     });
     if effect.is_some() {
-        workspace.scene.lines_mut().select(Some(id.into()));
+        workspace.scene.select_line(Some(id.into()));
     }
     effect
 }
@@ -264,7 +273,10 @@ fn rename(workspace: &mut Workspace, old: &str, new: Option<&str>) -> Option<Eff
     let also = new.map_or(Ok(Vec::new()), |new| paths_of_renamed_line(&scene, old, new, LABEL));
     match edit.and_then(|edit| Ok(EditScript { also: also?, ..edit })) {
         Ok(edit) => {
-            workspace.scene.lines_mut().select(new.map(Into::into));
+            workspace.scene.select_line(new.map(Into::into));
+            if let Some(new) = new {
+                workspace.scene.lines_mut().renamed(old, new);
+            }
             Some(Effect::Change(Change::Edit(Edit::EditScript(edit), None)))
         }
         Err(reason) => {
@@ -272,6 +284,30 @@ fn rename(workspace: &mut Workspace, old: &str, new: Option<&str>) -> Option<Eff
             None
         }
     }
+}
+
+/// Adds a copy of the selected line to the project, and selects it.
+pub(super) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let name = workspace.scene.lines().selected().map(str::to_owned)?;
+    let id = free_line_name(&scene)?;
+    let effect = edit_lines(workspace, &scene, ScriptLabel::Duplicate, |lines| {
+        let own = &lines.list()[line_named(lines, &name)?];
+        let written = lines.tree().elements()[own.element].attributes.iter();
+        let others = written.filter(|attribute| !matches!(attribute.row.name, "id" | "points"));
+        let attributes = others.map(|one| (one.row.name.to_owned(), one.value.to_string())).collect();
+        lines.added(&NewLine { id: Some(id.clone()), points: own.points.clone(), attributes })
+    });
+    if effect.is_some() {
+        workspace.scene.select_line(Some(id.into()));
+    }
+    effect
+}
+
+/// Returns a name that no line has.
+fn free_line_name(scene: &SceneView) -> Option<String> {
+    let taken = |id: &str| scene.lines.as_ref().is_some_and(|lines| lines.called(id).is_some());
+    (1_u32..).map(|number| format!("line-{number}")).find(|id| !taken(id))
 }
 
 /// Deletes the selected line.
@@ -326,7 +362,7 @@ pub(in crate::panels) fn use_as_path(workspace: &mut Workspace) -> Option<Effect
 pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
     let selected = workspace.scene.things().to_vec();
-    gesture(workspace, ScriptLabel::AddClip, |base| {
+    step(workspace, |base| {
         let found =
             selected.iter().rev().filter_map(|id| base.plan.things().get(base.plan.thing_called(id)?));
         let things: Vec<&PlannedThing> = found.collect();
@@ -340,7 +376,8 @@ pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect>
         let takes = role.model.as_ref().map_or(&[][..], |model| model.takes());
         let name = |take: &StageTake| take.name().to_owned();
         let walks = takes.iter().map(name).find(|name| name.to_lowercase().contains("walk"));
-        follow_path(&base.scene(), &role.id, &path.id, walks.as_deref(), at)
+        let text = follow_path(&base.scene(), &role.id, &path.id, walks.as_deref(), at)?;
+        Ok(base.step(text, ScriptLabel::AddClip, ChangedThings::Thing(&role.id)))
     })
 }
 

@@ -6,7 +6,7 @@ use super::scene_lines::place_of;
 use super::scene_text::change_text;
 use crate::control::path_point::{PathPoint, PathPointOwner};
 use crate::panels::request::Effect;
-use crate::panels::scene::{ScriptChange, line_named};
+use crate::panels::scene::{ChangedThings, ScriptChange, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, path_point_splices};
@@ -52,7 +52,7 @@ fn path_change(
     let scene = open_scene(workspace)?;
     let base = gesture_base(workspace, &scene)?;
     let splices = path_point_splices(&base.script, path, point.index, point.place)?;
-    base.spliced(&splices, ScriptLabel::MovePoint, Some(gesture))
+    base.spliced(&splices, ScriptLabel::MovePoint, Some(gesture), ChangedThings::Thing(path))
 }
 
 /// Returns the edit of the file of lines as it was when the drag began.

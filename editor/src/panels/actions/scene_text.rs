@@ -1,7 +1,9 @@
 //! New texts of a scene's script.
 
 use crate::panels::request::Effect;
-use crate::panels::scene::{NewThing, SceneBase, ScriptChange, with_new_sound, with_new_thing, with_run};
+use crate::panels::scene::{
+    ChangedThings, NewThing, SceneBase, ScriptChange, with_new_sound, with_new_thing, with_run,
+};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
@@ -38,23 +40,14 @@ pub(super) fn change_project(workspace: &mut Workspace, change: &ScriptChange) -
     }
 }
 
-/// Makes a gesture on the scene as it is now a step of the history.
+/// Makes a gesture on the scene as it is now a step of the history. It changes these things, none of which may be locked.
 pub(super) fn gesture(
     workspace: &mut Workspace,
     label: ScriptLabel,
+    things: ChangedThings<'_>,
     act: impl FnOnce(&SceneBase) -> Result<String, GestureRefusal>,
 ) -> Option<Effect> {
-    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
-    let base = SceneBase::of(&scene, workspace.scene.text(&scene));
-    match base.and_then(|base| Ok((act(&base)?, Arc::clone(base.text())))) {
-        Ok((text, from)) => {
-            change_text(workspace, &ScriptChange { from, text, also: Vec::new(), label, gesture: None })
-        }
-        Err(refusal) => {
-            workspace.say(MessageSeverity::Info, refusal.to_string());
-            None
-        }
-    }
+    step(workspace, |base| Ok(base.step(act(base)?, label, things)))
 }
 
 /// Makes a change of the scene as it is now a step of the history: of its script, and of the project.
@@ -88,7 +81,7 @@ pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing], sounds: &[
     };
     let at = workspace.read().scene_time();
     let mut added = Vec::new();
-    let effect = gesture(workspace, label, |base| {
+    let effect = gesture(workspace, label, ChangedThings::None, |base| {
         let mut script = Arc::clone(&base.script);
         for thing in things {
             let (next, id) = with_new_thing(&script, thing)?;

@@ -69,8 +69,14 @@ pub(super) fn set_rate(workspace: &mut Workspace, rate: u32) -> Option<Effect> {
     }
     let splices: TextSplices = set_attribute(tree, 0, "fps", &rate.to_string())?;
     let text = splices.apply(&from);
-    let change =
-        ScriptChange { from, text, also: Vec::new(), label: ScriptLabel::ChangeFrameRate, gesture: None };
+    let change = ScriptChange {
+        from,
+        text,
+        also: Vec::new(),
+        label: ScriptLabel::ChangeFrameRate,
+        gesture: None,
+        things: Arc::default(),
+    };
     match of_project {
         Some(_) => change_project(workspace, &change),
         None => change_text(workspace, &change),

@@ -50,8 +50,10 @@ pub enum When {
     Scene,
     /// An action of a scene is selected.
     Clip,
-    /// An action or a thing of a scene is selected.
+    /// An action, a thing or a line of a scene is selected.
     SceneItem,
+    /// A thing or a line of a scene is selected.
+    ThingOrLine,
     /// A thing of a scene is selected.
     Thing,
     /// A model is being loaded.
@@ -98,7 +100,13 @@ impl When {
             Self::Clip => panels.scene().is_some() && panels.scene_editing.action().is_some(),
             Self::SceneItem => {
                 let editing = panels.scene_editing;
-                panels.scene().is_some() && (editing.action().is_some() || !editing.things().is_empty())
+                let has_any = editing.action().is_some() || !editing.things().is_empty();
+                panels.scene().is_some() && (has_any || editing.lines().selected().is_some())
+            }
+            Self::ThingOrLine => {
+                let editing = panels.scene_editing;
+                let has_any = !editing.things().is_empty() || editing.lines().selected().is_some();
+                panels.scene().is_some() && has_any
             }
             Self::Thing => panels.scene().is_some() && !panels.scene_editing.things().is_empty(),
             Self::Loading => panels.loading.is_some(),
@@ -133,6 +141,7 @@ impl When {
             Self::Scene => "No scene is open",
             Self::Clip => "No action of a scene is selected",
             Self::SceneItem => "Nothing of a scene is selected",
+            Self::ThingOrLine => "No thing and no line of a scene is selected",
             Self::Thing => "No thing of a scene is selected",
             Self::Loading => "No model is being opened",
             Self::Reference => "No reference picture was chosen",

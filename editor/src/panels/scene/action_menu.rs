@@ -3,7 +3,7 @@
 use super::gesture_request::gesture_request;
 use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
-use crate::panels::scene::SceneRequest;
+use crate::panels::scene::ChangedThings;
 use crate::panels::submenu::submenu;
 use dragonfly_anim::stage::PlannedThing;
 use dragonfly_anim::stage::gesture::add_new_action;
@@ -93,13 +93,14 @@ impl ActionMenu<'_> {
             return;
         }
         let at = self.context.scene_time();
-        let locked = who.filter(|who| self.context.scene_editing.is_locked(who));
-        self.requests.push(match locked {
-            Some(who) => Request::Scene(SceneRequest::Refused(format!("{who} is locked"))),
-            None => gesture_request(self.context, self.scene, ScriptLabel::AddAction, |scene| {
-                add_new_action(scene, row, who, target, at)
-            }),
-        });
+        let things = who.map_or(ChangedThings::None, ChangedThings::Thing);
+        self.requests.push(gesture_request(
+            self.context,
+            self.scene,
+            ScriptLabel::AddAction,
+            things,
+            |scene| add_new_action(scene, row, who, target, at),
+        ));
         ui.close();
     }
 }

@@ -8,14 +8,13 @@ use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
 use super::renaming::renamed;
 use super::thing_icon::icon;
-use super::{LineRequest, SceneBase, SceneRequest, ScriptChange, line_named};
+use super::{ChangedThings, LineRequest, SceneBase, SceneRequest, line_named};
 use crate::panels::icons::Icon;
 use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 use dragonfly_anim::stage::table::AttributeRow;
 use dragonfly_document::edit::ScriptLabel;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
-use std::sync::Arc;
 
 /// The fields of the selected action or thing, and of the selected line.
 #[derive(Debug, Default)]
@@ -279,12 +278,11 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         let label = ScriptLabel::ChangeValue;
         // An included file is not read yet.
         if tree.elements().get(element).is_some_and(|own| own.row.name == "include" && row.name == "src") {
-            let (from, text) = (Arc::clone(tree.text()), splices.apply(tree.text()));
-            let change = ScriptChange { from, text, also: Vec::new(), label, gesture: None };
-            return Ok(SceneRequest::Text(change));
+            let text = splices.apply(tree.text());
+            return Ok(SceneRequest::Text(base.step(text, label, ChangedThings::None)));
         }
         // A reference to something that does not exist is refused with its reason.
-        Ok(SceneRequest::Text(base.spliced(&splices, label, None)?))
+        Ok(SceneRequest::Text(base.spliced(&splices, label, None, ChangedThings::Element(element))?))
     };
     done().unwrap_or_else(|refusal| SceneRequest::Refused(refusal.to_string()))
 }

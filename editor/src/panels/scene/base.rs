@@ -1,6 +1,6 @@
 //! The script and plan with which gestures in a scene begin.
 
-use super::ScriptChange;
+use super::{ChangedThings, ScriptChange};
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene, spliced_script};
 use dragonfly_anim::stage::script::StageScript;
@@ -60,17 +60,31 @@ impl SceneBase {
         splices: &TextSplices,
         label: ScriptLabel,
         gesture: Option<Gesture>,
+        things: ChangedThings<'_>,
     ) -> Result<ScriptChange, GestureRefusal> {
-        Ok(self.change(&spliced_script(&self.script, splices)?, label, gesture))
+        Ok(self.change(&spliced_script(&self.script, splices)?, label, gesture, things))
     }
 
     /// Returns the change that makes `script` the script, and its project the project.
-    pub fn change(&self, script: &StageScript, label: ScriptLabel, gesture: Option<Gesture>) -> ScriptChange {
+    pub fn change(
+        &self,
+        script: &StageScript,
+        label: ScriptLabel,
+        gesture: Option<Gesture>,
+        things: ChangedThings<'_>,
+    ) -> ScriptChange {
         let projects = self.script.project().zip(script.project());
         let also = projects
             .and_then(|(old, new)| EditScript::between(old.tree().text(), new.tree().text(), Some(label)));
         let (from, text) = (Arc::clone(self.text()), script.tree().text().to_string());
-        ScriptChange { from, text, also: also.into_iter().collect(), label, gesture }
+        let things = things.ids(&self.script);
+        ScriptChange { from, text, also: also.into_iter().collect(), label, gesture, things }
+    }
+
+    /// Returns the step that makes `text` the text of the script.
+    pub fn step(&self, text: String, label: ScriptLabel, things: ChangedThings<'_>) -> ScriptChange {
+        let (from, things) = (Arc::clone(self.text()), things.ids(&self.script));
+        ScriptChange { from, text, also: Vec::new(), label, gesture: None, things }
     }
 
     /// Returns the text.

@@ -3,6 +3,7 @@
 use super::action_selection::ActionSelection;
 use super::line_editing::{LineEditing, MarkedThings};
 use super::newest_text::NewestText;
+use super::renamed_things::RenamedThings;
 use super::request::ScriptChange;
 use super::sounds::SceneSounds;
 use super::thing_selection::ThingSelection;
@@ -116,6 +117,11 @@ impl SceneEditing {
         self.actions.list()
     }
 
+    /// Returns whether an action is selected.
+    pub fn is_action_selected(&self, action: usize) -> bool {
+        self.actions.contains(action)
+    }
+
     /// Returns whether a thing is hidden.
     pub fn is_hidden(&self, thing: &str) -> bool {
         self.hidden.contains(thing)
@@ -129,6 +135,12 @@ impl SceneEditing {
     /// Returns whether a thing is locked: gestures do not change it.
     pub fn is_locked(&self, thing: &str) -> bool {
         self.locked.contains(thing)
+    }
+
+    /// Returns why a change of these things is refused: one of them is locked.
+    pub fn lock_refusal(&self, things: &[Box<str>]) -> Option<String> {
+        let locked = things.iter().find(|thing| self.is_locked(thing))?;
+        Some(format!("{locked} is locked"))
     }
 
     /// Returns the thing whose name is being typed.
@@ -202,7 +214,17 @@ impl SceneEditing {
     }
 
     pub(in crate::panels) fn select_things(&mut self, things: &[Box<str>], choice: Choice) {
+        self.lines.select(None);
         self.things.choose(things, choice);
+    }
+
+    /// Selects a drawn line, or none. With a line nothing else is selected.
+    pub(in crate::panels) fn select_line(&mut self, line: Option<Box<str>>) {
+        if line.is_some() {
+            self.things.replace(Vec::new());
+            self.actions = ActionSelection::default();
+        }
+        self.lines.select(line);
     }
 
     /// Selects an action and the thing that acts.
@@ -212,6 +234,7 @@ impl SceneEditing {
 
     /// Replaces, adds or toggles actions, and selects the thing that does the last one.
     pub(in crate::panels) fn select_actions(&mut self, actions: &[usize], choice: Choice) {
+        self.lines.select(None);
         self.actions.choose(actions, choice);
         let Some((script, _)) = &self.shown else { return };
         let active = self.action().filter(|&action| action < script.actions().len());
@@ -233,7 +256,7 @@ impl SceneEditing {
             let own = &tree.elements()[element];
             if let Some(id) = own.value("id").filter(|id| script.thing_called(id).is_some()) {
                 self.actions = ActionSelection::default();
-                self.things.replace(vec![id.into()]);
+                self.select_things(&[id.into()], Choice::Replace);
                 return;
             }
             let Some(parent) = own.parent else { return };
@@ -292,50 +315,59 @@ impl SceneEditing {
         *self = Self { ripple: self.ripple, sounds: self.sounds.cleared(), ..Self::default() };
     }
 
-    /// Adapts to a newer view.
-    pub(in crate::panels) fn update(&mut self, scene: Option<&SceneView>, answered: u64) {
+    /// Adapts to a newer view. Returns the things that have other names in it.
+    pub(in crate::panels) fn update(&mut self, scene: Option<&SceneView>, answered: u64) -> RenamedThings {
         self.script.update(answered);
         self.project.update(answered);
         let shown = scene
             .and_then(|scene| Some((Arc::clone(scene.script.as_ref()?), Arc::clone(scene.plan.as_ref()?))));
-        let Some((script, plan)) = shown else { return };
+        let mut renamed = RenamedThings::default();
+        let Some((script, plan)) = shown else { return renamed };
         let is_same = |(old, planned): &(Arc<StageScript>, Arc<StagePlan>)| {
             Arc::ptr_eq(old, &script) && Arc::ptr_eq(planned, &plan)
         };
         if self.shown.as_ref().is_some_and(is_same) {
-            return;
+            return renamed;
         }
         if let Some((old, _)) = self.shown.as_ref().filter(|(old, _)| !Arc::ptr_eq(old, &script)) {
             self.actions.follow(old, &script);
+            renamed = RenamedThings::between(old, &script);
+            self.things.rename(&renamed);
+            [&mut self.hidden, &mut self.locked].into_iter().for_each(|of| renamed.rename_in(of));
             self.things.retain(|id| script.thing_called(id).is_some());
         }
         if !self.awaited.is_empty() && self.awaited.iter().all(|id| script.thing_called(id).is_some()) {
-            self.things.replace(std::mem::take(&mut self.awaited));
+            let awaited = std::mem::take(&mut self.awaited);
+            self.select_things(&awaited, Choice::Replace);
             self.actions = ActionSelection::default();
         }
         self.lanes = Arc::new(SceneLanes::new(&script, &plan));
         self.shown = Some((script, plan));
+        renamed
     }
 
     /// Returns the change of the document that makes a text the newest one; `None` where it is that already.
     ///
     /// # Errors
     ///
-    /// The text was made from another one than the newest.
+    /// The text was made from another one than the newest, or a thing that it changes is locked.
     pub(in crate::panels) fn change(
         &mut self,
         scene: &SceneView,
         change: &ScriptChange,
-    ) -> Result<Option<Change>, &'static str> {
+    ) -> Result<Option<Change>, String> {
+        if let Some(reason) = self.lock_refusal(&change.things) {
+            return Err(reason);
+        }
         if !change.also.is_empty() && !self.script.has_gesture(change.gesture) {
             let text = |project: &Arc<StageProject>| Some(project.tree().text()) == scene.texts.main();
             let is_new = scene.project.as_ref().is_some_and(text);
             if !is_new || self.project.is_awaited() || self.script.is_awaited() {
-                return Err("The project has just changed: try again");
+                return Err("The project has just changed: try again".to_owned());
             }
         }
         let file = (scene.texts.list().len() > 1).then(|| TextRef::Name(scene.name.to_string()));
-        self.script.change(&scene.text, file, change)
+        self.script.change(&scene.text, file, change).map_err(str::to_owned)
     }
 
     /// Returns the change of the document that makes a text the newest one of the project; `None` where it is that already.

@@ -1,24 +1,24 @@
 //! Gestures of menus and lists: one change of the script, or the reason why it is refused.
 
-use super::{SceneBase, SceneRequest, ScriptChange};
+use super::{ChangedThings, SceneBase, SceneRequest};
 use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
 use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene};
 use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
-use std::sync::Arc;
 
 /// Returns the request that makes a gesture on the newest script a step of the history.
 pub(in crate::panels) fn gesture_request(
     context: &PanelContext<'_>,
     scene: &SceneView,
     label: ScriptLabel,
+    things: ChangedThings<'_>,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) -> Request {
     let base = SceneBase::of(scene, context.scene_editing.text(scene));
     let done = base.and_then(|base| {
         let text = act(&base.scene())?;
-        Ok(ScriptChange { from: Arc::clone(base.text()), text, also: Vec::new(), label, gesture: None })
+        Ok(base.step(text, label, things))
     });
     Request::Scene(match done {
         Ok(change) => SceneRequest::Text(change),

@@ -17,6 +17,8 @@ pub struct LineEditing {
     /// Name of the selected line.
     selected: Option<Box<str>>,
     hidden: BTreeSet<Box<str>>,
+    /// The line of which the list is asked to let its name be typed.
+    renaming: Option<Box<str>>,
     /// Paths and lines as they are drawn.
     looks: Arc<[LineLook]>,
     /// Points that can be dragged.
@@ -138,8 +140,24 @@ impl LineEditing {
         &mut self.eraser
     }
 
-    pub(in crate::panels) fn select(&mut self, line: Option<Box<str>>) {
+    pub(super) fn select(&mut self, line: Option<Box<str>>) {
         self.selected = line;
+    }
+
+    /// Returns the line whose name is to be typed.
+    pub fn renaming(&self) -> Option<&str> {
+        self.renaming.as_deref()
+    }
+
+    pub(in crate::panels) fn rename(&mut self, line: Option<Box<str>>) {
+        self.renaming = line;
+    }
+
+    /// Keeps a line hidden that has another name.
+    pub(in crate::panels) fn renamed(&mut self, old: &str, new: &str) {
+        if self.hidden.remove(old) {
+            self.hidden.insert(new.into());
+        }
     }
 
     pub(in crate::panels) fn hide(&mut self, line: Box<str>, hide: bool) {

@@ -22,6 +22,8 @@ pub struct ScriptChange {
     pub label: ScriptLabel,
     /// The gesture that it belongs to.
     pub gesture: Option<Gesture>,
+    /// The existing things that it changes, by their ids: it is refused while one of them is locked. None for what someone types.
+    pub things: Arc<[Box<str>]>,
 }
 
 /// A take that is dragged from the list to the timeline.
@@ -40,6 +42,8 @@ pub enum LineRequest {
     Hide(Box<str>, bool),
     /// Sets an attribute of a line, or removes it.
     Set(Box<str>, &'static str, Option<String>),
+    /// Starts to rename a line in the list, or has started.
+    Rename(Option<Box<str>>),
     /// Deletes a line.
     Delete(Box<str>),
     /// Adds a path along a line to the cast.

@@ -1,5 +1,6 @@
 //! The selected things of a scene.
 
+use super::renamed_things::RenamedThings;
 use dragonfly_document::bones::Choice;
 use std::collections::HashSet;
 
@@ -39,6 +40,14 @@ impl ThingSelection {
         let added = things.iter().filter(|id| choice == Choice::Add || !before.contains(*id));
         let all = self.list.drain(..).chain(added.cloned()).collect();
         self.replace(all);
+    }
+
+    /// Keeps things selected that have other names.
+    pub(super) fn rename(&mut self, renamed: &RenamedThings) {
+        if self.list.iter().any(|id| renamed.new_name(id).is_some()) {
+            let named = self.list.iter().map(|id| renamed.new_name(id).map_or_else(|| id.clone(), Box::from));
+            self.replace(named.collect());
+        }
     }
 
     /// Deselects the things for which `is_kept` returns false.

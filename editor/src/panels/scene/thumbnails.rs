@@ -7,7 +7,7 @@ use dragonfly_anim::stage::lanes::{SceneBar, SceneLanes};
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::time::StageTime;
 use egui::ColorImage;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A shot by what its picture shows, so that an edit elsewhere in the script keeps the picture until there is a newer one.
@@ -31,21 +31,36 @@ struct ShotPicture {
 /// The pictures of the shots.
 #[derive(Clone, Debug, Default)]
 pub struct SceneThumbnails {
-    pictures: BTreeMap<ShotKey, ShotPicture>,
+    /// By the ids of the cameras, and when the shots begin.
+    pictures: BTreeMap<Arc<str>, BTreeMap<StageTime, ShotPicture>>,
 }
 
 impl ShotKey {
     /// Returns the shot of a bar; `None` for other bars.
     pub fn of(script: &StageScript, bar: &SceneBar) -> Option<Self> {
-        script.actions().get(bar.action).filter(|_| bar.kind == "shot")?;
-        Some(Self { camera: script.element(bar.action).value("who")?.into(), begin: bar.begin })
+        Some(Self { camera: camera_of(script, bar)?.into(), begin: bar.begin })
     }
+}
+
+/// Returns the camera of the shot of a bar; `None` for other bars.
+fn camera_of<'a>(script: &'a StageScript, bar: &SceneBar) -> Option<&'a str> {
+    script.actions().get(bar.action).filter(|_| bar.kind == "shot")?;
+    script.element(bar.action).value("who")
 }
 
 impl SceneThumbnails {
     /// Returns the newest picture of a shot.
     pub fn get(&self, shot: &ShotKey) -> Option<&Arc<ColorImage>> {
-        self.pictures.get(shot)?.image.as_ref()
+        self.picture(&shot.camera, shot.begin)?.image.as_ref()
+    }
+
+    /// Returns the newest picture of the shot of a bar. Allocates nothing.
+    pub fn of_bar(&self, script: &StageScript, bar: &SceneBar) -> Option<&Arc<ColorImage>> {
+        self.picture(camera_of(script, bar)?, bar.begin)?.image.as_ref()
+    }
+
+    fn picture(&self, camera: &str, begin: StageTime) -> Option<&ShotPicture> {
+        self.pictures.get(camera)?.get(&begin)
     }
 
     /// Returns the first shot of a part of time without a picture of the plan.
@@ -56,23 +71,28 @@ impl SceneThumbnails {
         shown: TimeWindow,
     ) -> Option<ShotKey> {
         let [from, to] = [shown.start, shown.start + shown.length];
-        let in_sight =
+        let mut in_sight =
             shots_of(lanes).iter().filter(|shot| shot.begin.seconds() <= to && shot.end.seconds() >= from);
-        let is_old =
-            |shot: &ShotKey| self.pictures.get(shot).is_none_or(|known| !Arc::ptr_eq(&known.plan, plan));
-        in_sight.filter_map(|bar| ShotKey::of(script, bar)).find(is_old)
+        let is_old = |bar: &&SceneBar| {
+            let camera = camera_of(script, bar);
+            let known = camera.map(|camera| self.picture(camera, bar.begin));
+            known.is_some_and(|known| known.is_none_or(|known| !Arc::ptr_eq(&known.plan, plan)))
+        };
+        ShotKey::of(script, in_sight.find(is_old)?)
     }
 
     /// Notes the picture of a shot.
     pub fn receive(&mut self, shot: ShotKey, plan: Arc<StagePlan>, image: Option<Arc<ColorImage>>) {
-        self.pictures.insert(shot, ShotPicture { plan, image });
+        self.pictures.entry(shot.camera).or_default().insert(shot.begin, ShotPicture { plan, image });
     }
 
     /// Forgets the pictures of shots that are not there any more.
     pub fn keep_shots(&mut self, script: &StageScript, lanes: &SceneLanes) {
-        let mut shots: Vec<ShotKey> =
-            shots_of(lanes).iter().filter_map(|bar| ShotKey::of(script, bar)).collect();
-        shots.sort();
-        self.pictures.retain(|shot, _| shots.binary_search(shot).is_ok());
+        let shots = shots_of(lanes).iter().filter_map(|bar| Some((camera_of(script, bar)?, bar.begin)));
+        let shots: BTreeSet<(&str, StageTime)> = shots.collect();
+        self.pictures.retain(|camera, pictures| {
+            pictures.retain(|begin, _| shots.contains(&(&**camera, *begin)));
+            !pictures.is_empty()
+        });
     }
 }

@@ -1,6 +1,6 @@
 //! The scene in the viewport: what is under the pointer, its things at the time shown, and a drag of them.
 
-use super::SceneBase;
+use super::{SceneBase, ThingPoses};
 use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StagePlan, StageScene};
@@ -49,6 +49,8 @@ pub struct SceneViewport {
     focused: Option<Box<str>>,
     /// The bone or thing on which the line in progress began, by its name in scripts.
     pressed_on: Option<String>,
+    /// The places at which the gizmo is.
+    poses: ThingPoses,
 }
 
 /// The things of a plan at one time.
@@ -60,6 +62,16 @@ struct ShownThings {
 }
 
 impl SceneViewport {
+    /// Returns the places at which the gizmo was, to be set and kept again.
+    pub(in crate::panels) fn take_poses(&mut self) -> ThingPoses {
+        std::mem::take(&mut self.poses)
+    }
+
+    /// Keeps the memory of the places at which the gizmo is.
+    pub(in crate::panels) fn keep_poses(&mut self, poses: ThingPoses) {
+        self.poses = poses;
+    }
+
     /// Returns the thing under the pointer.
     pub fn hovered(&self) -> Option<&Arc<str>> {
         self.hovered.as_ref()

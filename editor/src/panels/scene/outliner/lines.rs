@@ -38,6 +38,10 @@ impl LineRows {
         if lines.list().is_empty() {
             return;
         }
+        if let Some(name) = context.scene_editing.lines().renaming() {
+            self.typed = Some((name.into(), NameField::of(name)));
+            send(requests, LineRequest::Rename(None));
+        }
         ui.add_space(GRID);
         ui.horizontal(|ui| {
             ui.add_space(3.0 * GRID);

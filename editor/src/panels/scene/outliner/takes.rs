@@ -4,7 +4,7 @@ use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::request::Request;
 use crate::panels::scene::gesture_request::gesture_request;
-use crate::panels::scene::{DraggedTake, SceneRequest};
+use crate::panels::scene::{ChangedThings, DraggedTake};
 use crate::panels::style::GRID;
 use crate::panels::theme::Theme;
 use crate::panels::{search_field, widgets};
@@ -86,12 +86,10 @@ fn row(
     }
     if response.double_clicked() {
         let at = context.scene_time();
-        requests.push(match context.scene_editing.is_locked(&thing.id) {
-            true => Request::Scene(SceneRequest::Refused(format!("{} is locked", thing.id))),
-            false => gesture_request(context, scene, ScriptLabel::AddClip, |base| {
-                add_clip(base, &thing.id, take, at)
-            }),
-        });
+        let things = ChangedThings::Thing(&thing.id);
+        requests.push(gesture_request(context, scene, ScriptLabel::AddClip, things, |base| {
+            add_clip(base, &thing.id, take, at)
+        }));
     }
     response.on_hover_text("Drag it onto a lane of the timeline, or double-click to add it at the playhead");
 }

@@ -294,7 +294,8 @@ impl ScriptPanel {
         };
         let from: Arc<str> = before.into();
         let text = self.buffer.as_str().to_owned();
-        let change = ScriptChange { from, text, also: Vec::new(), label, gesture: Some(gesture) };
+        let (also, things) = (Vec::new(), Arc::default());
+        let change = ScriptChange { from, text, also, label, gesture: Some(gesture), things };
         requests.push(Request::Scene(match self.shown {
             ShownText::Script => SceneRequest::Typed(change),
             ShownText::Project => SceneRequest::TypedProject(change),

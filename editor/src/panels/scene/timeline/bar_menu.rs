@@ -5,7 +5,7 @@ use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
-use crate::panels::scene::SceneRequest;
+use crate::panels::scene::{ChangedThings, SceneRequest};
 use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed, wait_after};
 use dragonfly_anim::stage::script::StageRepeat;
 use dragonfly_anim::stage::table::element;
@@ -25,6 +25,8 @@ const FADES: [f64; 5] = [0.0, 0.1, 0.25, 0.5, 1.0];
 pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {
     let Some((_, bar)) = sheet.lanes.bar_of(action) else { return };
     let row = element(bar.kind);
+    let own = [action];
+    let things = ChangedThings::Actions(&own);
     let has = |name: &str| row.is_some_and(|row| row.attribute(name).is_some());
     if let Some(missing) = missing_sound(action, sheet)
         && ui.add(egui::Button::new("Find the sound…").frame_when_inactive(false)).clicked()
@@ -46,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
         submenu(ui, "Speed", |ui| {
             for speed in SPEEDS {
                 let title = format!("{speed}×");
-                gesture(ui, &title, ScriptLabel::ChangeSpeed, sheet, requests, |scene| {
+                gesture(ui, &title, (ScriptLabel::ChangeSpeed, things), sheet, requests, |scene| {
                     set_speed(scene, action, speed)
                 });
             }
@@ -57,14 +59,14 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
             for times in REPEATS {
                 let Some(number) = Decimal::parse(times) else { continue };
                 let title = format!("{times}×");
-                gesture(ui, &title, ScriptLabel::ChangeRepeat, sheet, requests, |scene| {
+                gesture(ui, &title, (ScriptLabel::ChangeRepeat, things), sheet, requests, |scene| {
                     set_repeat(scene, action, StageRepeat::Times(number))
                 });
             }
             gesture(
                 ui,
                 "For as long as there is time",
-                ScriptLabel::ChangeRepeat,
+                (ScriptLabel::ChangeRepeat, things),
                 sheet,
                 requests,
                 |scene| set_repeat(scene, action, StageRepeat::Fill),
@@ -72,7 +74,7 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
         });
     }
     if sheet.scene.script.as_ref().is_some_and(|script| script.is_in_seq(action)) {
-        gesture(ui, "Wait after it", ScriptLabel::AddAction, sheet, requests, |scene| {
+        gesture(ui, "Wait after it", (ScriptLabel::AddAction, things), sheet, requests, |scene| {
             wait_after(scene, action)
         });
     }
@@ -101,10 +103,12 @@ fn fade_entries(
     sheet: &SceneSheet<'_>,
     requests: &mut Vec<Request>,
 ) {
+    let own = [action];
+    let things = ChangedThings::Actions(&own);
     submenu(ui, title, |ui| {
         for seconds in FADES {
             let title = if seconds == 0.0 { "None".to_owned() } else { format!("{seconds} s") };
-            gesture(ui, &title, ScriptLabel::ChangeFade, sheet, requests, |scene| {
+            gesture(ui, &title, (ScriptLabel::ChangeFade, things), sheet, requests, |scene| {
                 set_fade(scene, action, end, StageTime::from_seconds(seconds))
             });
         }

@@ -87,8 +87,12 @@ impl BarDragging {
                 }
                 None => {}
             },
-            DragEvent::Dropped(TimelineDrag::Bar(held)) if held.is_sent => {
-                requests.push(Request::Change(Change::Release(held.gesture)));
+            DragEvent::Dropped(TimelineDrag::Bar(held)) => {
+                if held.is_sent {
+                    requests.push(Request::Change(Change::Release(held.gesture)));
+                }
+                let refused = held.refused().map(|refusal| SceneRequest::Refused(refusal.to_string()));
+                requests.extend(refused.map(Request::Scene));
             }
             DragEvent::Cancelled(TimelineDrag::Bar(held)) if held.is_sent => {
                 requests.push(Request::Change(Change::Cancel(held.gesture)));
@@ -97,10 +101,7 @@ impl BarDragging {
                 let at = input.pointer.or(self.last).unwrap_or_default();
                 requests.push(Request::Scene(boxed(&drawn, at, sheet)));
             }
-            DragEvent::Dropped(TimelineDrag::Bar(_))
-            | DragEvent::Cancelled(_)
-            | DragEvent::Nothing
-            | DragEvent::Pressed => {}
+            DragEvent::Cancelled(_) | DragEvent::Nothing | DragEvent::Pressed => {}
         }
         if response.double_clicked()
             && let Some(SceneHit::Bar { action, .. }) = self.hovered

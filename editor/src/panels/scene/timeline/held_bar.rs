@@ -2,21 +2,22 @@
 
 use super::lane_layout::{SceneBarPart, SceneHit};
 use super::sheet::SceneSheet;
-use super::snap::snapped_time;
+use super::snap::{SnapTargets, frame_at};
 use crate::panels::drag::{PointerInput, readout};
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneBase, SceneRequest, ScriptChange, move_label};
+use crate::panels::scene::{ChangedThings, SceneBase, SceneEditing, SceneRequest, ScriptChange, move_label};
 use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureRefusal, SequenceOrder, in_this_text, move_clips, move_clips_to_lane,
-    set_fade, set_speed, trim_end, trim_start,
+    FadeEnd, Followers, GestureRefusal, MovedPart, SequenceOrder, in_this_text, move_clips,
+    move_clips_to_lane, moved_along, set_fade, stretch_to, trim_end, trim_start,
 };
-use dragonfly_anim::stage::lanes::{SceneBar, SceneLane};
+use dragonfly_anim::stage::lanes::{SceneBar, SceneLane, SceneLanes};
 use dragonfly_anim::stage::table::element;
 use dragonfly_anim::stage::time::{StageRate, StageTime, TICKS_PER_SECOND};
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::history::Gesture;
 use egui::Ui;
 use glam::Vec2;
+use std::sync::Arc;
 
 /// A bar that is dragged.
 #[derive(Clone, Debug)]
@@ -27,10 +28,16 @@ pub(super) struct HeldBar {
     pub(super) part: SceneBarPart,
     /// The actions that move along, with that of the bar.
     actions: Vec<usize>,
+    /// The things that do them.
+    things: Arc<[Box<str>]>,
     /// Time of the pointer when it was pressed.
     grabbed: StageTime,
     /// Name of the thing.
     name: Box<str>,
+    /// The lanes as they were when it was pressed.
+    lanes: Arc<SceneLanes>,
+    /// To what it snaps, by what the actions after it do.
+    targets: Option<(Followers, SnapTargets)>,
     /// Whether something was sent.
     pub(super) is_sent: bool,
     /// The place to which the edge was brought last.
@@ -62,16 +69,16 @@ pub(super) fn begin(
         return Ok(None);
     };
     // A part of a bar is dragged alone.
-    let selected = sheet.context.scene_editing.actions();
-    let actions = match part == SceneBarPart::Body && selected.contains(&action) {
-        true => selected.to_vec(),
+    let editing = sheet.context.scene_editing;
+    let actions = match part == SceneBarPart::Body && editing.is_action_selected(action) {
+        true => editing.actions().to_vec(),
         false => vec![action],
     };
-    let names = actions.iter().filter_map(|&action| Some(&*sheet.lanes.bar_of(action)?.0.name));
-    if let Some(locked) = names.into_iter().find(|name| sheet.context.scene_editing.is_locked(name)) {
-        return Err(GestureRefusal(format!("{locked} is locked")));
-    }
     let base = SceneBase::of(sheet.scene, sheet.context.scene_editing.text(sheet.scene))?;
+    let things = ChangedThings::Actions(&actions).ids(&base.script);
+    if let Some(reason) = sheet.context.scene_editing.lock_refusal(&things) {
+        return Err(GestureRefusal(reason));
+    }
     for own in actions.iter().filter_map(|&action| base.script.actions().get(action)) {
         in_this_text(base.script.tree(), own.element)?;
     }
@@ -82,8 +89,11 @@ pub(super) fn begin(
         bar: bar.clone(),
         part,
         actions,
+        things,
         grabbed,
         name: lane.name.clone(),
+        lanes: Arc::clone(sheet.context.scene_editing.lanes()),
+        targets: None,
         is_sent: false,
         asked: None,
         refused: None,
@@ -95,6 +105,11 @@ impl HeldBar {
     pub(super) fn selection(&self) -> Vec<usize> {
         let others = self.actions.iter().copied().filter(|&action| action != self.bar.action);
         others.chain([self.bar.action]).collect()
+    }
+
+    /// Returns why it could not be brought to where the pointer is.
+    pub(super) fn refused(&self) -> Option<&GestureRefusal> {
+        self.refused.as_ref()
     }
 
     /// Follows the pointer.
@@ -118,17 +133,17 @@ impl HeldBar {
         let rate = self.base.script.rate();
         let reach = StageTime::from_seconds(f64::from(sheet.scale.seconds(6.0)));
         let snaps = context.keys.snap() != input.modifiers.command;
+        let followers =
+            if context.scene_editing.ripple() == input.ripple { Followers::Stay } else { Followers::Follow };
         let edge = match snaps {
-            true => snapped_time(edge, sheet.lanes, &self.actions, context.scene_time(), reach, rate),
+            true => self.snapped(edge, context.scene_time(), reach, followers),
             false => at_five_decimals(edge),
         };
         let edge = edge.max(StageTime::ZERO);
-        let followers =
-            if context.scene_editing.ripple() == input.ripple { Followers::Stay } else { Followers::Follow };
         let asked = AskedEdge { time: edge, alt: input.modifiers.alt, followers, onto: self.onto(at, sheet) };
         // A movement within the same frame changes nothing.
         if self.asked.as_ref() != Some(&asked) {
-            requests.extend(self.bring_to(&asked));
+            requests.extend(self.bring_to(&asked, context.scene_editing));
             self.asked = Some(asked);
         }
         let pointer = egui::pos2(at.x, at.y);
@@ -136,6 +151,37 @@ impl HeldBar {
             None => readout(ui, pointer, &self.amounts(edge, rate)),
             Some(refusal) => readout(ui, pointer, &refusal.to_string()),
         }
+    }
+
+    /// Returns the time to which an edge snaps: of a whole bar, its begin or its end, whichever is nearer to something. What moves along with it was
+    /// elsewhere when it was pressed, and does not count.
+    fn snapped(
+        &mut self,
+        edge: StageTime,
+        playhead: StageTime,
+        reach: StageTime,
+        followers: Followers,
+    ) -> StageTime {
+        let part = match self.part {
+            SceneBarPart::Body => MovedPart::Whole,
+            SceneBarPart::Start => MovedPart::Begin,
+            SceneBarPart::End => MovedPart::End,
+            SceneBarPart::FadeIn | SceneBarPart::FadeOut => MovedPart::Neither,
+        };
+        if self.targets.as_ref().is_none_or(|(of, _)| *of != followers) {
+            let moved = moved_along(&self.base.scene(), &self.actions, part, followers);
+            self.targets = Some((followers, SnapTargets::of(&self.lanes, &moved)));
+        }
+        let nearest = |time: StageTime| {
+            let (_, targets) = self.targets.as_ref()?;
+            targets.nearest(time, playhead, reach)
+        };
+        let length = self.bar.end - self.bar.begin;
+        let has_end = part == MovedPart::Whole && !self.bar.is_passive && length > StageTime::ZERO;
+        let by_end = nearest(edge + length).filter(|_| has_end).map(|time| time - length);
+        let distance = |time: &StageTime| (*time - edge).ticks().abs();
+        let found = nearest(edge).into_iter().chain(by_end).min_by_key(distance);
+        found.unwrap_or_else(|| frame_at(edge, self.base.script.rate()))
     }
 
     /// Returns the thing to whose lane the bar goes with the pointer: one that does such actions, or `None` for its own.
@@ -149,12 +195,18 @@ impl HeldBar {
     }
 
     /// Returns the request that brings the dragged part to an edge; `None` where it is refused.
-    fn bring_to(&mut self, asked: &AskedEdge) -> Option<Request> {
+    fn bring_to(&mut self, asked: &AskedEdge, editing: &SceneEditing) -> Option<Request> {
+        let things: Arc<[Box<str>]> = self.things.iter().chain(&asked.onto).cloned().collect();
         let (label, result) = self.gesture_to(asked);
+        // Told at the pointer while it is dragged, too.
+        let result = match editing.lock_refusal(&things) {
+            Some(reason) => Err(GestureRefusal(reason)),
+            None => result,
+        };
         let (text, refused) = result.map_or_else(|refusal| (None, Some(refusal)), |text| (Some(text), None));
         self.refused = refused;
-        let from = std::sync::Arc::clone(self.base.text());
-        let change = ScriptChange { from, text: text?, also: Vec::new(), label, gesture: Some(self.gesture) };
+        let (from, also, gesture) = (Arc::clone(self.base.text()), Vec::new(), Some(self.gesture));
+        let change = ScriptChange { from, text: text?, also, label, gesture, things };
         self.is_sent = true;
         Some(Request::Scene(SceneRequest::Text(change)))
     }
@@ -174,9 +226,7 @@ impl HeldBar {
                 (move_label(&self.actions), moved)
             }
             SceneBarPart::Start => (ScriptLabel::TrimStart, trim_start(&scene, action, edge)),
-            SceneBarPart::End if *alt => {
-                (ScriptLabel::ChangeSpeed, set_speed(&scene, action, self.speed_to(edge)))
-            }
+            SceneBarPart::End if *alt => (ScriptLabel::ChangeSpeed, stretch_to(&scene, action, edge)),
             SceneBarPart::End => (ScriptLabel::TrimEnd, trim_end(&scene, action, edge, followers)),
             SceneBarPart::FadeIn => {
                 (ScriptLabel::ChangeFade, set_fade(&scene, action, FadeEnd::In, edge - self.bar.begin))
@@ -185,18 +235,6 @@ impl HeldBar {
                 (ScriptLabel::ChangeFade, set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge))
             }
         }
-    }
-
-    /// Returns the speed with which the bar would end at a time.
-    fn speed_to(&self, edge: StageTime) -> f64 {
-        let speed = self
-            .base
-            .script
-            .element(self.bar.action)
-            .value("speed")
-            .and_then(|text| text.parse::<f64>().ok());
-        let (old, new) = ((self.bar.end - self.bar.begin).seconds(), (edge - self.bar.begin).seconds());
-        speed.unwrap_or(1.0) * old / new.max(1e-3)
     }
 
     /// Returns the numbers of the drag.

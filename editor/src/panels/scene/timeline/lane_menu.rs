@@ -8,7 +8,7 @@ use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
-use crate::panels::scene::{SceneRequest, add_action_menu};
+use crate::panels::scene::{ChangedThings, SceneRequest, add_action_menu};
 use dragonfly_anim::stage::gesture::{add_clip, attach_thing, cut_to};
 use dragonfly_anim::stage::lanes::SceneLane;
 use dragonfly_document::edit::ScriptLabel;
@@ -36,7 +36,7 @@ impl SceneMenu {
             self.on = drag.hovered();
             // Of several selected actions each one opens the menu for all.
             if let Some(SceneHit::Bar { action, .. }) = self.on
-                && !sheet.context.scene_editing.actions().contains(&action)
+                && !sheet.context.scene_editing.is_action_selected(action)
             {
                 requests.push(Request::Scene(SceneRequest::SelectAction(Some(action))));
             }
@@ -64,9 +64,14 @@ fn lane_entries(ui: &mut Ui, lane: &SceneLane, sheet: &SceneSheet<'_>, requests:
             }
             egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
                 for take in model.takes() {
-                    gesture(ui, take.name(), ScriptLabel::AddClip, sheet, requests, |scene| {
-                        add_clip(scene, &lane.name, take.name(), at)
-                    });
+                    gesture(
+                        ui,
+                        take.name(),
+                        (ScriptLabel::AddClip, ChangedThings::Thing(&lane.name)),
+                        sheet,
+                        requests,
+                        |scene| add_clip(scene, &lane.name, take.name(), at),
+                    );
                 }
             });
         });
@@ -95,16 +100,26 @@ fn attach_entries(
 ) {
     let at = sheet.context.scene_time();
     submenu(ui, &*holder.id, |ui| {
-        gesture(ui, "The whole", ScriptLabel::Attach, sheet, requests, |scene| {
-            attach_thing(scene, who, &holder.id, at)
-        });
+        gesture(
+            ui,
+            "The whole",
+            (ScriptLabel::Attach, ChangedThings::Thing(who)),
+            sheet,
+            requests,
+            |scene| attach_thing(scene, who, &holder.id, at),
+        );
         let bones = holder.model.as_ref().map_or(&[][..], |model| &model.skeleton().bones);
         egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
             for bone in bones.iter().filter(|bone| !bone.name.is_empty()) {
                 let to = format!("{}.{}", holder.id, bone.name);
-                gesture(ui, &bone.name, ScriptLabel::Attach, sheet, requests, |scene| {
-                    attach_thing(scene, who, &to, at)
-                });
+                gesture(
+                    ui,
+                    &bone.name,
+                    (ScriptLabel::Attach, ChangedThings::Thing(who)),
+                    sheet,
+                    requests,
+                    |scene| attach_thing(scene, who, &to, at),
+                );
             }
         });
     });
@@ -116,7 +131,7 @@ fn general(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {
     let things = sheet.scene.plan.as_ref().map_or(&[][..], |plan| plan.things());
     submenu(ui, "Cut at the playhead to", |ui| {
         for camera in things.iter().filter(|thing| thing.kind == "camera") {
-            gesture(ui, &camera.id, ScriptLabel::AddShot, sheet, requests, |scene| {
+            gesture(ui, &camera.id, (ScriptLabel::AddShot, ChangedThings::None), sheet, requests, |scene| {
                 cut_to(scene, &camera.id, at)
             });
         }

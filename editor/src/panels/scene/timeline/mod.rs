@@ -33,7 +33,7 @@ pub use lane_layout::{SceneBarPart, SceneHit, SceneLaneLayout};
 use paint::BarContents;
 pub use paint::mixed_part;
 use sheet::SceneSheet;
-pub use snap::snapped_time;
+use std::sync::Arc;
 pub use take_marks::{EventMark, events_of};
 
 /// Width of the names of the lanes.
@@ -52,6 +52,8 @@ pub struct SceneTimeline {
     scrub: dope::Scrub,
     menu: lane_menu::SceneMenu,
     contents: BarContents,
+    /// The layout of the lanes that were drawn last.
+    layout: Option<(Arc<SceneLanes>, Arc<SceneLaneLayout>)>,
     /// The active action that was brought into sight last.
     followed: Option<usize>,
 }
@@ -114,8 +116,8 @@ impl SceneTimeline {
         let head = Rect::from_min_max(pos2(left, rect.top()), pos2(rect.right(), rect.top() + ruler::HEIGHT));
         let canvas = Rect::from_min_max(pos2(left, head.bottom()), rect.max);
         let names = Rect::from_min_max(pos2(rect.left(), head.bottom()), pos2(left, rect.bottom()));
-        let lanes = std::sync::Arc::clone(context.scene_editing.lanes());
-        let layout = SceneLaneLayout::of(&lanes);
+        let lanes = Arc::clone(context.scene_editing.lanes());
+        let layout = self.layout_of(&lanes);
         let window = context.scene_editing.window();
         let window = match self.drag.is_busy() {
             true => *self.held.get_or_insert(window),
@@ -183,6 +185,19 @@ impl SceneTimeline {
             other => other,
         }));
     }
+
+    /// Returns the layout of lanes, which is computed once.
+    fn layout_of(&mut self, lanes: &Arc<SceneLanes>) -> Arc<SceneLaneLayout> {
+        match &self.layout {
+            Some((of, layout)) if Arc::ptr_eq(of, lanes) => Arc::clone(layout),
+            Some(_) | None => {
+                let layout = Arc::new(SceneLaneLayout::of(lanes));
+                self.layout = Some((Arc::clone(lanes), Arc::clone(&layout)));
+                layout
+            }
+        }
+    }
+
     /// Returns top and bottom of the lane of an action that has just become the active one, such as that under the cursor of the script. Asks for
     /// another part of time where the action is not in the one that is shown.
     fn newly_active(

@@ -113,7 +113,7 @@ fn draw_bar(
     contents: &mut BarContents,
 ) {
     let theme = sheet.theme;
-    let is_selected = sheet.context.scene_editing.actions().contains(&bar.action);
+    let is_selected = sheet.context.scene_editing.is_action_selected(bar.action);
     let strength = if is_dim { 0.35 } else { 1.0 };
     let color = hue(theme, lane, bar).gamma_multiply(strength);
     if bar.is_instant() {

@@ -30,11 +30,8 @@ pub(super) fn show(
         let rate = sheet.scene.script.as_ref()?.rate();
         let time = StageTime::from_seconds(f64::from(time).max(0.0));
         let reach = StageTime::from_seconds(f64::from(scale.seconds(4.0)));
-        let snapped = if snaps {
-            snapped_time(time, sheet.lanes, &[], frame_at(time, rate), reach, rate)
-        } else {
-            time
-        };
+        let snapped =
+            if snaps { snapped_time(time, sheet.lanes, frame_at(time, rate), reach, rate) } else { time };
         Some(context.playhead_at(snapped))
     };
     let response = scrub.follow(ui, &ruler, seconds, requests);

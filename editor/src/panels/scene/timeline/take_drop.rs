@@ -5,7 +5,7 @@ use super::snap::snapped_time;
 use crate::panels::drag::readout;
 use crate::panels::request::Request;
 use crate::panels::scene::gesture_request::gesture_request;
-use crate::panels::scene::{DraggedTake, SceneRequest};
+use crate::panels::scene::{ChangedThings, DraggedTake, SceneRequest};
 use dragonfly_anim::stage::gesture::add_clip;
 use dragonfly_anim::stage::lanes::SceneLane;
 use dragonfly_anim::stage::time::StageTime;
@@ -37,9 +37,13 @@ pub(super) fn update(ui: &Ui, painter: &Painter, sheet: &SceneSheet<'_>, request
     painter.rect_stroke(bar, CornerRadius::same(4), edge, StrokeKind::Inside);
     readout(ui, at, &format!("{name} · {}: begins at {:.3} s", take.take, begin.seconds()));
     if is_released {
-        requests.push(gesture_request(sheet.context, sheet.scene, ScriptLabel::AddClip, |scene| {
-            add_clip(scene, name, &take.take, begin)
-        }));
+        requests.push(gesture_request(
+            sheet.context,
+            sheet.scene,
+            ScriptLabel::AddClip,
+            ChangedThings::Thing(name),
+            |scene| add_clip(scene, name, &take.take, begin),
+        ));
     }
 }
 
@@ -50,7 +54,7 @@ fn snapped(at: Pos2, ui: &Ui, sheet: &SceneSheet<'_>) -> StageTime {
     match rate.filter(|_| is_snapping) {
         Some(rate) => {
             let reach = StageTime::from_seconds(f64::from(sheet.scale.seconds(6.0)));
-            snapped_time(time, sheet.lanes, &[], sheet.context.scene_time(), reach, rate)
+            snapped_time(time, sheet.lanes, sheet.context.scene_time(), reach, rate)
         }
         None => time,
     }

@@ -1,7 +1,6 @@
 //! The pictures of shots on their bars.
 
 use super::sheet::SceneSheet;
-use crate::panels::scene::ShotKey;
 use dragonfly_anim::stage::lanes::SceneBar;
 use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions, pos2, vec2};
 use std::collections::BTreeMap;
@@ -15,9 +14,10 @@ const LEAST: f32 = 12.0;
 /// The textures of the pictures that were drawn last.
 #[derive(Default)]
 pub(super) struct ShotTextures {
-    drawn: BTreeMap<ShotKey, ShotTexture>,
+    /// By the addresses of their pictures, which they keep.
+    drawn: BTreeMap<usize, ShotTexture>,
     /// Those of the frame before.
-    before: BTreeMap<ShotKey, ShotTexture>,
+    before: BTreeMap<usize, ShotTexture>,
 }
 
 struct ShotTexture {
@@ -45,16 +45,18 @@ impl ShotTextures {
         bar: &SceneBar,
         rect: Rect,
     ) -> Rect {
-        let shot = sheet.scene.script.as_ref().and_then(|script| ShotKey::of(script, bar));
-        let Some(shot) = shot.filter(|_| rect.width() >= LEAST) else { return rect };
-        let Some(image) = sheet.context.scene_editing.thumbnails().get(&shot) else { return rect };
-        let texture = match self.before.remove(&shot) {
-            Some(known) if Arc::ptr_eq(&known.image, image) => known,
-            Some(_) | None => {
+        let script = sheet.scene.script.as_ref().filter(|_| rect.width() >= LEAST);
+        let thumbnails = sheet.context.scene_editing.thumbnails();
+        let Some(image) = script.and_then(|script| thumbnails.of_bar(script, bar)) else { return rect };
+        let key = Arc::as_ptr(image).addr();
+        let before = self.before.remove(&key);
+        let texture = self.drawn.entry(key).or_insert_with(|| {
+            before.unwrap_or_else(|| {
                 let texture = painter.ctx().load_texture("shot", Arc::clone(image), TextureOptions::LINEAR);
                 ShotTexture { image: Arc::clone(image), texture }
-            }
-        };
+            })
+        });
+        debug_assert!(Arc::ptr_eq(&texture.image, image), "a texture keeps its picture");
         let inside = rect.shrink(MARGIN);
         let [width, height] = image.size.map(|side| side.max(1) as f32);
         let place = Rect::from_min_size(inside.min, vec2(inside.height() * width / height, inside.height()));
@@ -65,7 +67,6 @@ impl ShotTextures {
             uv,
             Color32::WHITE,
         );
-        self.drawn.insert(shot, texture);
         Rect::from_min_max(pos2(place.right().min(rect.right()), rect.top()), rect.max)
     }
 }
