@@ -51,6 +51,10 @@ fn random_changes_of_a_growing_file_are_those_of_bytes_in_memory() {
                 }
             }
             assert_eq!(file.size(), wanted.len() as u64, "seed {seed}, round {round}");
+            // Reading writes the buffer, which must work with what is not written, too.
+            if random.below(2) == 0 {
+                continue;
+            }
             let mut found = vec![0; wanted.len() - at.min(wanted.len())];
             file.read(&mut found, at.min(wanted.len()) as u64).unwrap();
             assert!(found == wanted[at.min(wanted.len())..], "seed {seed}, round {round}");
@@ -110,10 +114,11 @@ fn work(files: Arc<dyn Vfs>, path: &Path) -> Result<(), FileSaveError> {
 fn every_call_that_fails_leaves_the_old_file_or_the_complete_new_one() {
     let folder = Folder::new("growing-faults");
     let path = folder.join("it");
+    std::fs::write(&path, "old").unwrap();
     let counted = FaultyFiles::once(u64::MAX, Fault::Io);
     work(Arc::new(counted.clone()), &path).unwrap();
     let new = std::fs::read(&path).unwrap();
-    for call in 1..=counted.calls() + 3 {
+    for call in 1..=counted.calls() {
         for fault in Fault::ALL {
             std::fs::write(&path, "old").unwrap();
             let files = FaultyFiles::once(call, fault);
@@ -143,9 +148,11 @@ fn bytes_before_an_insertion_stay_in_place_when_the_disk_is_full() {
         }
         if file.insert(&[9; 1000], 100).is_err() {
             refused += 1;
-            let mut found = vec![0; 100];
+            // Without room, nothing has moved; later, what is before the insertion is in place.
+            let same = if refused == 1 { bytes.len() } else { 100 };
+            let mut found = vec![0; same];
             file.read(&mut found, 0).unwrap();
-            assert_eq!(found, bytes[..100]);
+            assert!(found == bytes[..same], "call {call}");
         }
     }
     assert!(refused > 1, "{refused}");
