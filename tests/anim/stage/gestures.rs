@@ -97,7 +97,7 @@ fn a_clip_is_stretched_to_an_end_by_its_speed_unless_something_else_decides_abou
         (walk.replace("begin", "dur=\"3\" begin"), "Its `dur` decides"),
         (walk.replace("begin=\"1\"", "end=\"3\""), "Its `end` decides"),
         (run.replace("repeat=\"3\"", "repeat=\"fill\""), "as long as there is time"),
-        ("<look id=\"a\" who=\"anna\" at=\"ben\"/>".to_owned(), "<look> has no speed"),
+        ("<look id=\"a\" who=\"anna\" at=\"ben\" bones=\"b_Head_05\"/>".to_owned(), "<look> has no speed"),
     ] {
         let (_, refused) = gesture(&actions, |scene| stretch_to(scene, called(scene, "a"), seconds(9.0)));
         let refused = refused.expect_err("a refusal").0;
