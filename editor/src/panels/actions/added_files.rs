@@ -4,7 +4,7 @@ use super::scene_gizmo::joined;
 use super::scene_text::{add_all, gesture};
 use crate::panels::dropped_files::{DropPlace, DroppedModels, UnknownModels};
 use crate::panels::request::Effect;
-use crate::panels::scene::{NewThing, new_thing_splices, with_new_sound};
+use crate::panels::scene::{ChangedThings, NewThing, new_thing_splices, with_new_sound};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureScene, attach_splices, spliced_text};
@@ -57,7 +57,7 @@ pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> O
 fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Option<Effect> {
     let mut added = Vec::new();
     let at = workspace.read().scene_time();
-    let effect = gesture(workspace, ScriptLabel::AddProp, |base| {
+    let effect = gesture(workspace, ScriptLabel::AddProp, ChangedThings::None, |base| {
         let mut script = Arc::clone(&base.script);
         for (model, _) in &dropped.models {
             let (thing, id) = new_thing_splices(&script, &NewThing::Prop(model.clone()))?;

@@ -6,7 +6,7 @@ use crate::panels::dialogs::{CopyQuestion, MissingQuestion};
 use crate::panels::dropped_files::{FileUse, WantedFiles};
 use crate::panels::file_choice::FileChoice;
 use crate::panels::request::Effect;
-use crate::panels::scene::NewThing;
+use crate::panels::scene::{ChangedThings, NewThing};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_script};
@@ -150,7 +150,8 @@ fn name_found(workspace: &mut Workspace, files: &[SceneFile]) -> Option<Effect> 
             true => None,
             false => Some(spliced_script(&base.script, &script)?),
         };
-        let mut change = base.change(script.as_ref().unwrap_or(&base.script), LABEL, None);
+        let mut change =
+            base.change(script.as_ref().unwrap_or(&base.script), LABEL, None, ChangedThings::None);
         change.also.extend(others);
         Ok(change)
     });
