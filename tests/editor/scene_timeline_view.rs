@@ -106,6 +106,8 @@ fn an_error_has_a_mark_in_the_margin_at_its_line() {
     let take = FOXES.find("take=\"Walk").expect("a take") + "take=\"Walk".len();
     put_cursor(&mut window, take);
     type_text(&mut window, "s");
+    // The list of errors takes room, and the text is scrolled to the cursor.
+    window.run_steps(30);
     let line = FOXES[..take].lines().count();
     let mark = window.get_by_label(&format!("Error in line {line}")).rect();
     let script = window.get_by_label("Script of the scene").rect();

@@ -10,7 +10,7 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 
 const PROJECT: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<project version="1" name="Foxes" fps="24" size="1280x720">
+<project version="1" fps="24" size="1280x720">
   <lines src="foxes.lines.xml"/>
   <script id="main" src="foxes.xml"/>
 </project>

@@ -57,3 +57,12 @@ pub(crate) fn samples(path: &Path) -> Vec<i16> {
     let bytes = run("ffmpeg", &["-map", "0:a", "-f", "s16le", "-c:a", "pcm_s16le", "-"], path);
     bytes.as_chunks::<2>().0.iter().map(|sample| i16::from_le_bytes(*sample)).collect()
 }
+
+/// Returns what ffmpeg reads of the headers of the pictures, a line each: names and numbers. It also complains there about bits that are wrong.
+pub(crate) fn headers(path: &Path) -> String {
+    let arguments = ["-c", "copy", "-bsf:v", "trace_headers", "-f", "null", "-"];
+    let mut command = Command::new("ffmpeg");
+    let output = command.arg("-i").arg(path).args(arguments).output().expect("ffmpeg runs");
+    assert!(output.status.success());
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}

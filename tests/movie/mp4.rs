@@ -1,7 +1,7 @@
 //! MP4: what ffmpeg finds in it.
 
 use crate::frames::{disc, luma, noise, opaque, psnr, rate, write, write_disc};
-use crate::judge::{decode, ffmpeg, probe};
+use crate::judge::{decode, ffmpeg, headers, probe};
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_movie::{Movie, MovieError, MovieFrame, MovieSettings, MovieTarget, movie_format};
@@ -198,4 +198,24 @@ fn impossible_settings_and_frames_are_refused_with_the_reason() {
     assert!(error.to_string().contains("12287 numbers"), "{error}");
     assert!(matches!(movie.end(), Err(MovieError::Empty)));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn decoders_read_that_no_picture_waits_for_a_later_one() {
+    let folder = Folder::new("mp4-headers");
+    let path = folder.join("it.mp4");
+    write_disc("mp4", &MovieSettings::new([320, 180], rate("25")), &path, 5, false);
+    if !ffmpeg() {
+        return;
+    }
+    let found = headers(&path);
+    let number = |name: &str| {
+        let line =
+            found.lines().find(|line| line.contains(name)).unwrap_or_else(|| panic!("no {name} in {found}"));
+        line.rsplit_once('=').map(|(_, number)| number.trim().to_owned())
+    };
+    assert_eq!(number("bitstream_restriction_flag").as_deref(), Some("1"));
+    assert_eq!(number("max_num_reorder_frames").as_deref(), Some("0"));
+    assert!(number("max_dec_frame_buffering").is_some_and(|frames| frames != "0"));
+    assert!(!found.contains("out of range") && !found.contains("Invalid"), "{found}");
 }

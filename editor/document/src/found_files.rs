@@ -44,7 +44,8 @@ impl SceneView {
 ///
 /// # Errors
 ///
-/// A file is named only in a file that is included, which is no text of the document.
+/// The first file, which was chosen, is named only in a file that is included, which is no text of the document. Others of which that is so stay
+/// missing.
 pub fn name_found_files(
     scene: &SceneView,
     script: &StageScript,
@@ -63,9 +64,7 @@ pub fn name_found_files(
             }
         }
     }
-    if let Some((missing, _)) =
-        found.iter().zip(edited.is_named).find(|(_, is_named)| !is_named).map(|(one, _)| one)
-    {
+    if let Some(((missing, _), false)) = found.first().zip(edited.is_named.first().copied()) {
         return Err(place_of(script, missing));
     }
     Ok(FoundFiles { script: own, others })

@@ -70,6 +70,8 @@ impl FileSearch<'_> {
                 }
             }
             Err(errors) => {
+                let what = format!("{}: with errors in it, the files that it names are not known", main.name);
+                self.found.reasons.push(what);
                 self.found.reasons.extend(errors.iter().map(|error| error.in_file(&main.name)));
             }
         }
@@ -90,7 +92,9 @@ impl FileSearch<'_> {
                 for (file, text) in context.files.texts().chain([(&**name, text)]) {
                     self.found.names.insert(file.to_owned());
                     if let Ok(tree) = ScriptTree::read(Arc::clone(text)) {
-                        self.of_tree(&tree, file.rsplit_once('/').map_or("", |(inside, _)| inside), project);
+                        // In a project all names are relative to its folder.
+                        let inside = file.rsplit_once('/').filter(|_| project.is_none());
+                        self.of_tree(&tree, inside.map_or("", |(inside, _)| inside), project);
                     }
                 }
             }

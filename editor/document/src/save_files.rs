@@ -47,14 +47,29 @@ impl Editable {
             return Err(format!("{}: its folder does not exist", output.display()));
         }
         let written = |file: &OutputFile| (folder.join(&file.name), file.bytes.clone());
-        let from = self.path.as_deref().map(folder_of).filter(|_| self.is_elsewhere(output));
+        // Standard output and devices are in no folder that could get the other files.
+        let is_device = output == Path::new("-") || output.metadata().is_ok_and(|data| !data.is_file());
+        let is_elsewhere = |_: &&Path| !is_device && self.is_elsewhere(output);
+        let from = self.path.as_deref().map(folder_of).filter(is_elsewhere);
         let mut files = SaveFiles { is_elsewhere: from.is_some(), ..SaveFiles::default() };
         let Some(from) = from else {
             files.written = beside.iter().map(written).collect();
             files.written.push((output.to_path_buf(), main.bytes.clone()));
             return Ok(files);
         };
-        let from = Folder::new(from).map_err(|error| format!("{}: {error}", from.display()))?;
+        let from = match (Folder::new(from), &self.content) {
+            (Ok(from), _) => from,
+            // Its folder is gone, and the texts are here.
+            (Err(error), EditedContent::Texts(texts)) => {
+                files.add_texts(&saved_texts(texts, plan), folder)?;
+                files.written.push((output.to_path_buf(), main.bytes.clone()));
+                files
+                    .copied
+                    .add_missing(vec![format!("nothing was copied from {}: {error}", from.display())]);
+                return Ok(files);
+            }
+            (Err(error), EditedContent::Model(_)) => return Err(format!("{}: {error}", from.display())),
+        };
         let needed = match &self.content {
             EditedContent::Model(file) => {
                 files.written = beside.iter().map(written).collect();

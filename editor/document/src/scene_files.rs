@@ -86,32 +86,36 @@ impl SceneFiles {
     }
 
     /// Finds out which of the files are in the folder of the scene, and what the models outside need. Adds those of `others`, which are
-    /// missing too, that are next to the first file under their own names.
+    /// missing too, that are next to the first file under their own names and can be used.
     ///
     /// # Errors
     ///
-    /// The first file that cannot be read, with the reason.
+    /// The first of the files that cannot be read, with the reason.
     pub fn look(&mut self, others: Vec<MissingFile>, cancel: &Cancel) -> Result<(), String> {
         let root = self.root()?;
-        if let Some(beside) = self.files.first().and_then(|file| file.path.parent()).map(Path::to_owned) {
+        for file in &mut self.files {
+            file.look(&self.folder, &root, cancel)?;
+        }
+        let chosen = self.files.first().map(|file| file.path.clone());
+        if let Some((chosen, beside)) = chosen.as_ref().and_then(|file| Some((file, file.parent()?))) {
             for other in others {
                 let path = beside.join(file_name(Path::new(&other.file)));
+                // Two missing files of one name are two files.
+                if path == *chosen {
+                    continue;
+                }
                 // The one that is named already may be there and damaged.
                 let is_named = root
                     .path_of(&other.file)
                     .is_ok_and(|own| path.canonicalize().is_ok_and(|path| path == own));
                 if !is_named && open_file(&path).is_ok() {
-                    let file = SceneFile::new(other.kind, path);
-                    self.files.push(SceneFile { replaces: Some(other), ..file });
+                    let mut file = SceneFile::new(other.kind, path);
+                    file.replaces = Some(other);
+                    // A damaged one stays missing.
+                    if file.look(&self.folder, &root, cancel).is_ok() {
+                        self.files.push(file);
+                    }
                 }
-            }
-        }
-        for file in &mut self.files {
-            let title = file_name(&file.path);
-            open_file(&file.path).map_err(|error| format!("{title} {error}"))?;
-            file.name = name_inside(&self.folder, &root, &file.path);
-            if file.name.is_none() && file.kind == SceneFileKind::Model {
-                file.beside = beside(&file.path, cancel)?;
             }
         }
         Ok(())
@@ -142,6 +146,17 @@ impl SceneFiles {
 }
 
 impl SceneFile {
+    /// Finds out whether it is in the folder of the scene, and what it needs where it is a model outside.
+    fn look(&mut self, folder: &Path, root: &Folder, cancel: &Cancel) -> Result<(), String> {
+        let title = file_name(&self.path);
+        open_file(&self.path).map_err(|error| format!("{title} {error}"))?;
+        self.name = name_inside(folder, root, &self.path);
+        if self.name.is_none() && self.kind == SceneFileKind::Model {
+            self.beside = beside(&self.path, cancel)?;
+        }
+        Ok(())
+    }
+
     /// Returns the name of its copy, relative to the folder of the scene: it is free there, or that of the same file.
     fn place(&self, folder: &Path) -> Result<String, String> {
         let title = file_name(&self.path);

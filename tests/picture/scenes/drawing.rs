@@ -91,7 +91,7 @@ fn the_grid_and_the_contact_shadow_are_as_high_as_the_ground_of_the_project() {
     // The same scene twice: on the ground at 0, and everything three meters higher.
     let mut draw = |ground: u32| {
         let project = format!("<project version=\"1\"><scene ground=\"{ground}\"/></project>");
-        let project = StageProject::read(project.into()).expect("a project");
+        let project = StageProject::read(project).expect("a project");
         let context = ScriptContext { project: Some(project), ..ScriptContext::default() };
         let [eye, target] = [ground + 2, ground + 1];
         let cast = format!(

@@ -54,7 +54,7 @@ fn view_of(text: &str, loaded: &Arc<LoadedModel>) -> Arc<SceneView> {
 
 /// Returns the view of a script in the project of a context.
 fn view_in(context: &ScriptContext, text: &str, loaded: &Arc<LoadedModel>) -> Arc<SceneView> {
-    let script = StageScript::read_in(text.into(), context);
+    let script = StageScript::read_in(text, context);
     let script = script.unwrap_or_else(|errors| panic!("{}", errors[0].in_file(text)));
     let (mut assets, mut models) = (StageAssets::default(), BTreeMap::new());
     for source in script.things().filter_map(|thing| thing.value("model")) {

@@ -45,8 +45,7 @@ pub(super) fn with_usability(nal: &[u8], rate: StageRate, references: u32) -> Op
     // No buffering models, no structure of pictures.
     bits.put(0, 3);
     // Restrictions: motion across the edges, sizes without a limit, vectors of any length, pictures in the order in which they are shown.
-    bits.put(1, 2);
-    bits.put(1, 1);
+    bits.put(0b11, 2);
     bits.golomb(0);
     bits.golomb(0);
     bits.golomb(15);

@@ -14,6 +14,7 @@ use dragonfly_anim::stage::gesture::{
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::script::{ElementOrigin, StageScript};
 use dragonfly_anim::stage::time::StageTime;
+use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::script_that_names;
 
@@ -124,8 +125,9 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
             delete_clips(&base.scene(), &actions, followers)
         });
         if effect.is_some() {
-            // Of those that are left, none may be taken for one of them.
+            // Of those that are left, none may be taken for one of them, and the same key must not delete the thing that did them.
             workspace.scene.select_action(None);
+            workspace.scene.select_things(&[], Choice::Replace);
         }
         return effect;
     }

@@ -37,11 +37,18 @@ pub(super) fn want(
 
 /// Returns the folder of the scene; `None`, with a message, where it is in none.
 fn folder(workspace: &mut Workspace) -> Option<PathBuf> {
-    let folder = workspace.read().scene().and(workspace.read().model_folder());
+    let folder = folder_of_scene(workspace);
     if folder.is_none() {
         workspace.say(MessageSeverity::Warning, "The scene is in no folder yet: save it first");
     }
     folder
+}
+
+/// Returns the folder of the scene that is open; `None` while none is, and for one without a file.
+fn folder_of_scene(workspace: &Workspace) -> Option<PathBuf> {
+    let folder = workspace.read().scene().and(workspace.read().model_folder())?;
+    // That of a file that was opened by its name alone.
+    Some(if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder })
 }
 
 /// Uses files of which a job has found out where they are, or asks whether those outside are copied. `copied` is the number of files that it
@@ -51,8 +58,7 @@ pub(in crate::panels) fn answered(
     wanted: Box<WantedFiles>,
     copied: usize,
 ) -> Option<Effect> {
-    let is_open = workspace.read().scene().is_some();
-    if !is_open || workspace.read().model_folder().as_ref() != Some(&wanted.files.folder) {
+    if folder_of_scene(workspace).as_ref() != Some(&wanted.files.folder) {
         workspace.say(MessageSeverity::Warning, "The scene is not open any more: its files were not added");
         return None;
     }
