@@ -61,7 +61,7 @@ pub(super) enum SaveFailure {
 pub(super) struct UnsavedFile {
     /// The reason.
     pub(super) reason: SaveFailure,
-    /// Its path, links resolved, and its stamp, where it has the new bytes all the same and the disk did not confirm them. The next save must not
+    /// Its path, links resolved, and its stamp, where it has the new bytes although the disk did not confirm them. The next save must not
     /// take them for those of another program.
     pub(super) own: Option<(PathBuf, FileStamp)>,
 }

@@ -14,7 +14,7 @@ pub struct SceneAround {
     pub left_out: Vec<Arc<str>>,
     /// Matrix from the space of the scene to that of the model.
     pub model_from_scene: Mat4,
-    /// How the times of a take are times of the scene; without it, the scene stands still at [`Self::seconds`].
+    /// How the times of a take are times of the scene; without it, the scene is shown at [`Self::seconds`].
     pub clip: Option<AroundClip>,
     /// Time of the scene where no clip plays, seconds.
     pub seconds: f64,

@@ -32,7 +32,7 @@ pub(super) fn add_boxes(boxes: &mut [AxisBox], primitive: &Primitive, first: usi
     }
 }
 
-/// The size that decides how far up parts leave a shadow, and the height at which it lies.
+/// The size that decides how far up parts leave a shadow, and the height of the ground.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadowedGround {
     /// Radius of the model.

@@ -164,7 +164,7 @@ impl Scene {
     /// The draw calls of blended surfaces, farthest first.
     pub(crate) fn blended_runs(&self) -> impl Iterator<Item = (&DrawSet, &[DrawBatch])> {
         let of_model = self.model_in_view().map(|model| (model.draws(), model.batches().blended()));
-        // What is around a model is behind it more often than in front of it.
+        // Most of the scene is farther away than the model.
         let of_scenes = self.around_in_view().into_iter().chain(&self.cast);
         of_scenes.flat_map(PosedScene::blended_runs).chain(of_model)
     }

@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
         if room >= Room::Keying {
             divider(ui);
             match context.scene() {
-                // Where things of a scene are moved to, from the playhead on.
+                // With it, things of a scene are moved from the playhead on.
                 Some(_) => {
                     command_button(ui, Icon::AutoKey, Id::AutoKey, context.settings.auto_key, requests);
                 }

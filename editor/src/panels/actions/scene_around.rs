@@ -109,7 +109,7 @@ fn place_in(
         return None;
     }
     let model_from_scene = place.inverse();
-    // What a take travels is part of the place in a scene, and part of the pose in the take.
+    // The way that a take travels is part of the place in a scene, and part of the pose in the take.
     let in_scene = state.pose.as_ref().and_then(|pose| pose.to_root.matrices().next());
     let in_take = take.map(|(take, seconds, _)| {
         let mut evaluator = Evaluator::new(Arc::clone(&loaded.model));

@@ -107,7 +107,7 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
         Ok(base.change(&script, ScriptLabel::Duplicate, None, ChangedThings::None))
     });
     if effect.is_some() {
-        // The copies lie on the originals: what is dragged next is a copy.
+        // The copies are in the places of the originals: the next drag moves a copy.
         workspace.scene.await_things(copies);
     }
     effect
@@ -125,7 +125,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
             delete_clips(&base.scene(), &actions, followers)
         });
         if effect.is_some() {
-            // Of those that are left, none may be taken for one of them, and the same key must not delete the thing that did them.
+            // None of those that are left may be taken for one of them, and the same key must not delete the thing that did them.
             workspace.scene.select_action(None);
             workspace.scene.select_things(&[], Choice::Replace);
         }

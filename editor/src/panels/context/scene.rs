@@ -40,7 +40,7 @@ impl<'a> PanelContext<'a> {
     /// playhead could be before it.
     pub fn playhead_at(&self, time: StageTime) -> f32 {
         let nearest = time.seconds() as f32;
-        // What is a little before it may count as the frame or the millisecond before it.
+        // A playhead a little after a frame or a millisecond counts as being on it.
         let after = (time.seconds() + 2.0 * f64::from(f32::EPSILON) * time.seconds().max(1.0)) as f32;
         let has_come = |at: &f32| self.scene_time_at(*at) >= time;
         [nearest, nearest.next_up()].into_iter().find(has_come).unwrap_or(after)
