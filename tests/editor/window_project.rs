@@ -6,6 +6,7 @@ use crate::screen::{key, pass};
 use crate::window::{SOON, alone};
 use crate::window_scene_viewport::{camera, place};
 use crate::window_visit::Visit;
+use dragonfly_kit::folder::data;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -63,7 +64,7 @@ fn drag(visit: &mut Visit, from: [i16; 2], to: [i16; 2]) {
 /// Drops the model where a place of the scene is seen.
 fn drop_model(visit: &mut Visit, at: DVec3) {
     let at = place(visit, at).round();
-    let file = visit.folder.join("Fox.glb");
+    let file = visit.folder.join("figure.glb");
     let mut hand = Drag::new(&visit.screen);
     hand.take_pointer();
     visit.screen.point(at.x as i16 - 120, at.y as i16 - 40);
@@ -81,28 +82,30 @@ fn a_scene_is_made_from_nothing_in_the_window_and_every_file_of_its_project_is_t
     let _one = alone();
     let files = [(NAMES[0], PROJECT), (NAMES[1], SCRIPT), (NAMES[2], LINES)];
     let mut visit = Visit::of_project("project visit", &files);
+    std::fs::copy(data("collection/kenney_character_nodes.glb"), visit.folder.join("figure.glb"))
+        .expect("a copy");
     visit.control("Lanes of the scene");
     visit.until_steps(0, 0);
     let before = texts(&visit);
 
-    // Two foxes.
+    // Two figures.
     visit.until("a camera", |visit| (camera(visit).distance > 0.1).then_some(()));
-    drop_model(&mut visit, DVec3::new(-0.3, 0.0, 0.0));
-    drop_model(&mut visit, DVec3::new(0.4, 0.0, 0.2));
+    drop_model(&mut visit, DVec3::new(-1.0, 0.0, 0.0));
+    drop_model(&mut visit, DVec3::new(1.0, 0.0, 0.2));
     let mut steps = 2;
 
     // The second one is placed with the gizmo.
     visit.screen.press(key::of('w'));
-    visit.click_on("Fox-2, role");
+    visit.click_on("figure-2, role");
     visit.control("facing");
-    let pivot = place(&mut visit, DVec3::new(0.4, 0.0, 0.2)).round();
+    let pivot = place(&mut visit, DVec3::new(1.0, 0.0, 0.2)).round();
     let from = [pivot.x as i16, pivot.y as i16];
     drag(&mut visit, from, [from[0] + 40, from[1]]);
     steps += 1;
     visit.until_steps(steps, steps);
 
     // A take is dragged onto its lane.
-    let (take, lane) = (middle(&mut visit, "Take Walk"), middle(&mut visit, "Lane of Fox-2"));
+    let (take, lane) = (middle(&mut visit, "Take walk"), middle(&mut visit, "Lane of figure-2"));
     let canvas = middle(&mut visit, "Lanes of the scene");
     drag(&mut visit, take, [canvas[0] - 100, lane[1]]);
     steps += 1;
@@ -150,7 +153,7 @@ fn a_scene_is_made_from_nothing_in_the_window_and_every_file_of_its_project_is_t
     let made = texts(&visit);
     let text = &made["foxes.xml"];
     assert_eq!(text.matches("<role ").count(), 2, "{text}");
-    for part in ["take=\"Walk\"", "<path id=\"path\"", "<shot who=\"close\"", "<!-- Two foxes12 -->"] {
+    for part in ["take=\"walk\"", "<path id=\"path\"", "<shot who=\"close\"", "<!-- Two foxes12 -->"] {
         assert!(text.contains(part), "{part} is not in {text}");
     }
     assert_eq!(made["foxes.lines.xml"], LINES);
