@@ -1,8 +1,8 @@
 //! Models of a scene whose files changed since the edits that its project keeps were made: the user is asked once, when they were read.
 
+use super::outdated_edits::OutdatedEdits;
 use super::scene_models::SceneModels;
 use super::scene_view::SceneModel;
-use super::waiting_scene::OutdatedEdits;
 use std::collections::BTreeSet;
 
 /// The models of an open scene that the user was asked about.

@@ -2,7 +2,7 @@
 
 use super::adapter::{TextFile, TextFiles};
 use super::edit::{Edit, EditScript, ScriptLabel, ScriptSplice, TextRef};
-use super::waiting_scene::{OutdatedEdits, OutdatedEditsChoice};
+use super::outdated_edits::{OutdatedEdits, OutdatedEditsChoice};
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::{ElementPlace, NewElement, insert, set_attribute};

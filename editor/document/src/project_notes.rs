@@ -1,8 +1,8 @@
 //! Notes about the models of a project: files that changed since they were used last, edits that are not applied.
 
+use super::outdated_edits::OutdatedEdits;
 use super::project_models::ProjectModels;
 use super::scene_model_source::{ReadFileState, SceneModelSource};
-use super::waiting_scene::OutdatedEdits;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::ScriptError;
 use std::collections::HashSet;

@@ -2,7 +2,7 @@
 
 use super::LoadedModel;
 use super::adapter::TextFiles;
-use super::waiting_scene::OutdatedEdits;
+use super::outdated_edits::OutdatedEdits;
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;

@@ -2,7 +2,6 @@
 
 use super::open::Open;
 use super::scene_model_source::SceneModelSource;
-use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -15,28 +14,6 @@ pub(super) struct SceneModelEdit {
     pub(super) source: SceneModelSource,
     /// Path of its file.
     pub(super) path: PathBuf,
-}
-
-/// Edits of a model that its project keeps, and that were made for another file than the one that is there now. They may be in it already,
-/// so that they are not applied until the user decides.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OutdatedEdits {
-    /// The name by which the script means the model.
-    pub model: String,
-    /// Name of its file.
-    pub title: String,
-    /// Hash of the file as it is now.
-    pub hash: u64,
-}
-
-/// The decision of the user about edits that were made for another file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum OutdatedEditsChoice {
-    /// They are applied to the file as it is now.
-    Apply,
-    /// The project does not keep them any more.
-    Remove,
 }
 
 /// A scene that waits while one of its models is edited.

@@ -2,7 +2,7 @@
 
 use super::begin::is_usual;
 use super::scene::{Followers, GestureScene};
-use crate::stage::schedule::{MovedTimes, TimeNode};
+use crate::stage::schedule::{TimeNode, TimesAlong};
 
 /// The part of clips that a drag moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub fn moved_along(
     actions: &[usize],
     part: MovedPart,
     followers: Followers,
-) -> MovedTimes {
+) -> TimesAlong {
     let script = scene.script;
     let known = || actions.iter().copied().filter(|&action| action < script.actions().len());
     let begins = known().map(TimeNode::Begin);
@@ -33,12 +33,12 @@ pub fn moved_along(
         MovedPart::Begin => (begins.collect(), ends.collect()),
         MovedPart::End => (ends.collect(), begins.collect()),
         MovedPart::Neither => {
-            return MovedTimes::only(script, &begins.chain(ends).collect::<Vec<TimeNode>>());
+            return TimesAlong::only(script, &begins.chain(ends).collect::<Vec<TimeNode>>());
         }
     };
     if followers == Followers::Stay {
         let next = known().filter_map(|action| script.next_in_seq(action));
         stays.extend(next.filter(|&next| is_usual(scene, next)).map(TimeNode::Begin));
     }
-    MovedTimes::after(script, &given, &stays)
+    TimesAlong::after(script, &given, &stays)
 }

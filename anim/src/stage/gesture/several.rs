@@ -6,7 +6,7 @@ use super::mixes::{ActionOrigins, mixed};
 use super::moving::{SequenceOrder, move_clip};
 use super::removal::{delete_clip, user_of};
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
-use crate::stage::schedule::{MovedTimes, Schedule, TimeNode, resolve};
+use crate::stage::schedule::{Schedule, TimeNode, TimesAlong, resolve};
 use crate::stage::splice::{AttachedComments, TextSplices, delete};
 use crate::stage::time::{MILLISECOND, StageTime};
 use std::borrow::Cow;
@@ -81,7 +81,7 @@ pub fn move_clips(
         // A clip that depends on another one of them waits: it moves along, most likely to the right time.
         let begins: Vec<TimeNode> =
             wrong.iter().map(|&(at, _)| TimeNode::Begin(targets[at].action)).collect();
-        let along = MovedTimes::by_others(&script, &begins);
+        let along = TimesAlong::by_others(&script, &begins);
         let next = GestureScene { script: &script, plan: scene.plan };
         let mut changes: Vec<AttributeChange<'_>> = Vec::new();
         for &(at, rest) in &wrong {

@@ -8,7 +8,7 @@ mod moved;
 mod resolve;
 
 pub(in crate::stage) use graph::TimeNode;
-pub use moved::MovedTimes;
+pub use moved::TimesAlong;
 pub use resolve::resolve;
 
 use crate::stage::script::ScriptError;

@@ -5,12 +5,12 @@ use crate::stage::script::StageScript;
 
 /// The begins and ends that may move along with others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct MovedTimes {
+pub struct TimesAlong {
     /// Whether each of them may, by their positions in the graph.
     slots: Vec<bool>,
 }
 
-impl MovedTimes {
+impl TimesAlong {
     /// Finds what depends on the given begins and ends of actions, with these; but not what `stays` and what depends only on that.
     pub(in crate::stage) fn after(script: &StageScript, given: &[TimeNode], stays: &[TimeNode]) -> Self {
         let graph = TimeGraph::new(script);

@@ -46,7 +46,7 @@ fn clip_at(lanes: &SceneLanes, scene: &SceneView, thing: &str, time: StageTime) 
     let speed = clip.speed.to_f64();
     let [from, to] = clip.part.map(StageTime::seconds);
     let start = if speed < 0.0 { to } else { from };
-    (speed != 0.0).then(|| EnteredClip { take, after: start + within * speed, speed })
+    (speed != 0.0).then_some(EnteredClip { take, after: start + within * speed, speed })
 }
 
 /// Shows the take that the thing played in the scene, at the same time of it, and the scene around the model. Without such a thing, nothing is
@@ -105,7 +105,8 @@ fn place_in(
     let state = scene.things.get(entered.thing)?;
     let Transform { translation, rotation, scale } = state.transform;
     let place = Mat4::from_scale_rotation_translation(scale, rotation, translation);
-    if !(place.determinant().abs() > 1e-30) {
+    let size = place.determinant().abs();
+    if size.is_nan() || size <= 1e-30 {
         return None;
     }
     let model_from_scene = place.inverse();

@@ -36,14 +36,14 @@ impl SceneSounds {
 
     /// Returns the sounds that are missing or cannot be read.
     pub fn missing(&self) -> impl Iterator<Item = MissingFile> + '_ {
-        let is_missing = |(source, sound): (&Box<str>, &SceneSound)| match sound {
+        let is_missing = |(source, sound): (&str, &SceneSound)| match sound {
             SceneSound::Problem(_) => {
                 let name = source.to_string();
                 Some(MissingFile { kind: SceneFileKind::Sound, file: name.clone(), name })
             }
             SceneSound::Reading | SceneSound::Read(_) => None,
         };
-        self.sounds.iter().filter_map(is_missing)
+        self.sounds.iter().map(|(source, sound)| (&**source, sound)).filter_map(is_missing)
     }
 
     /// Returns a number that grows when another document is opened, after which earlier answers mean nothing.
