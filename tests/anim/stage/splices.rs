@@ -180,7 +180,7 @@ fn a_new_name_is_written_wherever_the_old_one_is_used() {
     }
     assert!(
         elements_that_name(script.tree(), "sword").next().is_some()
-            && !elements_that_name(script.tree(), "anna-acts").next().is_some()
+            && elements_that_name(script.tree(), "anna-acts").next().is_none()
     );
 }
 

@@ -1,7 +1,7 @@
 //! Times to which a drag snaps: the ends of other bars, moments, the playhead, whole frames.
 
 use dragonfly_anim::stage::lanes::SceneLanes;
-use dragonfly_anim::stage::schedule::MovedTimes;
+use dragonfly_anim::stage::schedule::TimesAlong;
 use dragonfly_anim::stage::time::{StageRate, StageTime};
 
 /// The ends of bars and the moments of takes to which something snaps, in their order.
@@ -10,7 +10,7 @@ pub(super) struct SnapTargets(Vec<StageTime>);
 
 impl SnapTargets {
     /// Collects those of lanes, without those that move along with what is dragged.
-    pub(super) fn of(lanes: &SceneLanes, moved: &MovedTimes) -> Self {
+    pub(super) fn of(lanes: &SceneLanes, moved: &TimesAlong) -> Self {
         let mut times: Vec<StageTime> = ends(lanes, moved).collect();
         times.sort_unstable();
         Self(times)
@@ -37,12 +37,12 @@ pub(super) fn snapped_time(
     reach: StageTime,
     rate: StageRate,
 ) -> StageTime {
-    let none = MovedTimes::default();
+    let none = TimesAlong::default();
     let found = nearest(ends(lanes, &none).chain([playhead]), time, reach);
     found.unwrap_or_else(|| frame_at(time, rate))
 }
 
-fn ends(lanes: &SceneLanes, moved: &MovedTimes) -> impl Iterator<Item = StageTime> {
+fn ends(lanes: &SceneLanes, moved: &TimesAlong) -> impl Iterator<Item = StageTime> {
     let bars = lanes.list.iter().flat_map(|lane| &lane.bars);
     let ends = bars.flat_map(move |bar| {
         let begin = (!moved.begin(bar.action)).then_some(bar.begin);
