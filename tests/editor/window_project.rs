@@ -105,7 +105,7 @@ fn a_scene_is_made_from_nothing_in_the_window_and_every_file_of_its_project_is_t
     visit.until_steps(steps, steps);
 
     // A take is dragged onto its lane.
-    let (take, lane) = (middle(&mut visit, "Take walk"), middle(&mut visit, "Lane of figure-2"));
+    let (take, lane) = (middle(&mut visit, "Take static"), middle(&mut visit, "Lane of figure-2"));
     let canvas = middle(&mut visit, "Lanes of the scene");
     drag(&mut visit, take, [canvas[0] - 100, lane[1]]);
     steps += 1;
@@ -153,7 +153,7 @@ fn a_scene_is_made_from_nothing_in_the_window_and_every_file_of_its_project_is_t
     let made = texts(&visit);
     let text = &made["foxes.xml"];
     assert_eq!(text.matches("<role ").count(), 2, "{text}");
-    for part in ["take=\"walk\"", "<path id=\"path\"", "<shot who=\"close\"", "<!-- Two foxes12 -->"] {
+    for part in ["take=\"static\"", "<path id=\"path\"", "<shot who=\"close\"", "<!-- Two foxes12 -->"] {
         assert!(text.contains(part), "{part} is not in {text}");
     }
     assert_eq!(made["foxes.lines.xml"], LINES);
