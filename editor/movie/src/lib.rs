@@ -12,6 +12,7 @@ mod changed;
 mod error;
 mod format;
 mod frame;
+mod frame_pair;
 mod gif;
 #[cfg(feature = "h264")]
 mod h264;

@@ -48,7 +48,7 @@ fn a_model_edited_in_its_scene_looks_as_it_does_in_the_scene_with_the_others_aro
     assert!(moved * 10 < other, "{moved} pixels: wherever the thing is in its scene");
     let scene = studio.render_scene(&view(&text("0 0 0")), &settings());
     let apart = difference(&in_place, &scene.expect("a picture"));
-    // Where the transparent parts of both arms overlap, their order is another one.
+    // The transparent parts of both arms are drawn in another order.
     assert!(apart * 4 < other, "{apart}: it is the same picture as that of the scene");
     assert_eq!(studio.stage().device().errors(), 0);
 }

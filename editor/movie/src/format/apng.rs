@@ -1,13 +1,12 @@
 //! Animated PNG: without loss and with alpha; only what changed in each frame.
 
 use super::png::encode;
-use crate::changed::ChangedRect;
 use crate::error::MovieError;
 use crate::error::refused;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
+use crate::frame_pair::FramePair;
 use crate::report::MovieReport;
 use crate::settings::MovieSettings;
-use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
 use crate::writer::{MovieFormat, MovieWriter};
@@ -34,9 +33,7 @@ const UNITS: u32 = 10_000;
 struct ApngWriter {
     settings: MovieSettings,
     file: GrowingFile,
-    table: SrgbTable,
-    /// Pixels of the last frame and of this one.
-    pixels: [Vec<u8>; 2],
+    pair: FramePair,
     png: Vec<u8>,
     frames: u64,
     /// Number of chunks of the animation.
@@ -50,11 +47,8 @@ impl ApngWriter {
     fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<Self, MovieError> {
         let (files, path) = target.into_path(APNG.title)?;
         let file = GrowingFile::create(files, &path)?;
-        let pixels = [Vec::new(), Vec::new()];
-        let png = Vec::new();
-        let settings = settings.clone();
-        let table = SrgbTable::new();
-        Ok(Self { settings, file, table, pixels, png, frames: 0, sequence: 0, whole: 0, control: 0 })
+        let (settings, pair, png) = (settings.clone(), FramePair::new(), Vec::new());
+        Ok(Self { settings, file, pair, png, frames: 0, sequence: 0, whole: 0, control: 0 })
     }
 
     /// Returns the duration of a frame in seconds as a fraction.
@@ -78,15 +72,7 @@ impl ApngWriter {
     }
 
     fn write(&mut self, number: u64) -> Result<(), MovieError> {
-        let size = self.settings.size;
-        let [before, now] = &self.pixels;
-        let (before, now) = (before.as_chunks::<4>().0, now.as_chunks::<4>().0);
-        let mut rect = ChangedRect::whole(size);
-        let mut cut = Vec::new();
-        if self.frames > 0 {
-            rect = ChangedRect::between(before, now, size, false);
-        }
-        rect.cut(now, size, &mut cut);
+        let (rect, cut) = self.pair.changed(self.settings.size, self.frames == 0, false);
         encode(cut.as_flattened(), [rect.width, rect.height], &mut self.png).map_err(refused(number))?;
         if self.frames == 0 {
             self.file.append(SIGNATURE)?;
@@ -126,9 +112,9 @@ impl MovieWriter for ApngWriter {
             let reason = "a PNG has at most 2,147,483,647 frames".to_owned();
             return Err(MovieError::Frame { number, reason });
         }
-        frame.to_srgb(&self.table, &mut self.pixels[1]);
+        self.pair.take(frame);
         self.write(number)?;
-        self.pixels.swap(0, 1);
+        self.pair.keep();
         (self.frames, self.whole) = (self.frames + 1, self.file.size());
         Ok(())
     }

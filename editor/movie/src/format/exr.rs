@@ -1,8 +1,11 @@
 //! OpenEXR: a file for each frame in linear light, with half floats and alpha.
 
 use super::sequence::FrameFiles;
+use crate::error::MovieError;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
+use crate::settings::MovieSettings;
 use crate::srgb::SrgbTable;
+use crate::target::MovieTarget;
 use crate::writer::MovieFormat;
 use dragonfly_anim::stage::time::StageRate;
 use exr::prelude::{Compression, Encoding, Image, SpecificChannels, Vec2, WritableImage, f16};
@@ -20,15 +23,17 @@ pub(super) const EXR: MovieFormat = MovieFormat {
     is_sequence: true,
     can_stream: false,
     side: LARGEST_SIDE,
-    begin: |settings, target, _| {
-        let (table, mut pixels, rate) = (SrgbTable::new(), Vec::new(), settings.rate);
-        let encode = move |frame: MovieFrame<'_>, out: &mut Vec<u8>| {
-            frame.to_linear(&table, &mut pixels);
-            encode(&pixels, frame.size(), rate, out)
-        };
-        Ok(Box::new(FrameFiles::begin("OpenEXR files", settings, target, Box::new(encode))?))
-    },
+    begin: |settings, target, _| Ok(Box::new(begin(settings, target)?)),
 };
+
+fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<FrameFiles, MovieError> {
+    let (table, mut pixels, rate) = (SrgbTable::new(), Vec::new(), settings.rate);
+    let encode = move |frame: MovieFrame<'_>, out: &mut Vec<u8>| {
+        frame.to_linear(&table, &mut pixels);
+        encode(&pixels, frame.size(), rate, out)
+    };
+    FrameFiles::begin(EXR.title, target, Box::new(encode))
+}
 
 /// Encodes pixels of red, green, blue and alpha.
 fn encode(rgba: &[f32], size: [u32; 2], rate: StageRate, out: &mut Vec<u8>) -> Result<(), String> {

@@ -1,8 +1,10 @@
 //! PNG: a file for each frame, without loss and with alpha.
 
 use super::sequence::FrameFiles;
+use crate::error::MovieError;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
 use crate::srgb::SrgbTable;
+use crate::target::MovieTarget;
 use crate::writer::MovieFormat;
 
 pub(super) const PNG: MovieFormat = MovieFormat {
@@ -14,15 +16,17 @@ pub(super) const PNG: MovieFormat = MovieFormat {
     is_sequence: true,
     can_stream: false,
     side: LARGEST_SIDE,
-    begin: |settings, target, _| {
-        let (table, mut pixels) = (SrgbTable::new(), Vec::new());
-        let encode = move |frame: MovieFrame<'_>, out: &mut Vec<u8>| {
-            frame.to_srgb(&table, &mut pixels);
-            encode(&pixels, frame.size(), out)
-        };
-        Ok(Box::new(FrameFiles::begin("PNG files", settings, target, Box::new(encode))?))
-    },
+    begin: |_, target, _| Ok(Box::new(begin(target)?)),
 };
+
+fn begin(target: MovieTarget) -> Result<FrameFiles, MovieError> {
+    let (table, mut pixels) = (SrgbTable::new(), Vec::new());
+    let encode = move |frame: MovieFrame<'_>, out: &mut Vec<u8>| {
+        frame.to_srgb(&table, &mut pixels);
+        encode(&pixels, frame.size(), out)
+    };
+    FrameFiles::begin(PNG.title, target, Box::new(encode))
+}
 
 /// Encodes pixels of red, green, blue and alpha.
 pub(super) fn encode(rgba: &[u8], [width, height]: [u32; 2], out: &mut Vec<u8>) -> Result<(), String> {

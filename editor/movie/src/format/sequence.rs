@@ -3,7 +3,6 @@
 use crate::error::{MovieError, refused};
 use crate::frame::MovieFrame;
 use crate::report::MovieReport;
-use crate::settings::MovieSettings;
 use crate::target::{MovieTarget, SequenceName};
 use crate::writer::MovieWriter;
 use dragonfly_store::{SaveOptions, Vfs, save};
@@ -24,7 +23,6 @@ pub(super) struct FrameFiles {
 impl FrameFiles {
     pub(super) fn begin(
         format: &'static str,
-        _settings: &MovieSettings,
         target: MovieTarget,
         encode: EncodeFrame,
     ) -> Result<Self, MovieError> {

@@ -1,13 +1,12 @@
 //! Animated WebP without loss and with alpha; only what changed in each frame. The frames are encoded by the crate `image-webp`, and the
 //! container around them is written here.
 
-use crate::changed::ChangedRect;
 use crate::error::MovieError;
 use crate::error::refused;
 use crate::frame::MovieFrame;
+use crate::frame_pair::FramePair;
 use crate::report::MovieReport;
 use crate::settings::MovieSettings;
-use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
 use crate::writer::{MovieFormat, MovieWriter};
@@ -41,9 +40,7 @@ const REPLACES: u8 = 0x02;
 struct WebpWriter {
     settings: MovieSettings,
     file: GrowingFile,
-    table: SrgbTable,
-    /// Pixels of the last frame and of this one.
-    pixels: [Vec<u8>; 2],
+    pair: FramePair,
     frames: u64,
     has_alpha: bool,
     whole: u64,
@@ -53,9 +50,8 @@ impl WebpWriter {
     fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<Self, MovieError> {
         let (files, path) = target.into_path(WEBP.title)?;
         let file = GrowingFile::create(files, &path)?;
-        let pixels = [Vec::new(), Vec::new()];
-        let table = SrgbTable::new();
-        Ok(Self { settings: settings.clone(), file, table, pixels, frames: 0, has_alpha: false, whole: 0 })
+        let (settings, pair) = (settings.clone(), FramePair::new());
+        Ok(Self { settings, file, pair, frames: 0, has_alpha: false, whole: 0 })
     }
 
     /// Returns the bytes before the first frame.
@@ -75,15 +71,7 @@ impl WebpWriter {
             let header = self.header(8);
             self.file.append(&header)?;
         }
-        let size = self.settings.size;
-        let [before, now] = &self.pixels;
-        let (before, now) = (before.as_chunks::<4>().0, now.as_chunks::<4>().0);
-        let mut rect = ChangedRect::whole(size);
-        let mut cut = Vec::new();
-        if self.frames > 0 {
-            rect = ChangedRect::between(before, now, size, true);
-        }
-        rect.cut(now, size, &mut cut);
+        let (rect, cut) = self.pair.changed(self.settings.size, self.frames == 0, true);
         let mut encoded = Vec::new();
         WebPEncoder::new(&mut encoded)
             .encode(cut.as_flattened(), rect.width, rect.height, ColorType::Rgba8)
@@ -107,9 +95,9 @@ impl WebpWriter {
 
 impl MovieWriter for WebpWriter {
     fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError> {
-        frame.to_srgb(&self.table, &mut self.pixels[1]);
+        self.pair.take(frame);
         self.write(number)?;
-        self.pixels.swap(0, 1);
+        self.pair.keep();
         (self.frames, self.whole) = (self.frames + 1, self.file.size());
         Ok(())
     }

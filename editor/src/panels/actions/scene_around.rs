@@ -3,7 +3,6 @@
 use super::playback;
 use crate::panels::scene::{EnteredClip, EnteredThing};
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::data::Transform;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::fast::matrix::mat4;
 use dragonfly_anim::stage::StageScene;
@@ -103,8 +102,7 @@ fn place_in(
     take: Option<(usize, f64, f64)>,
 ) -> Option<Mat4> {
     let state = scene.things.get(entered.thing)?;
-    let Transform { translation, rotation, scale } = state.transform;
-    let place = Mat4::from_scale_rotation_translation(scale, rotation, translation);
+    let place = state.transform.to_matrix();
     let size = place.determinant().abs();
     if size.is_nan() || size <= 1e-30 {
         return None;

@@ -36,17 +36,10 @@ pub(in crate::panels) fn step_edge(workspace: &mut Workspace, forward: bool) {
 
 /// Scrolls the timeline of the scene so that the playhead is in it, if it is paused and out of sight.
 pub(super) fn bring_into_sight(workspace: &mut Workspace) {
-    let window = workspace.scene.window();
-    let at = f64::from(workspace.player.time());
-    // The slack allows for rounding to single precision.
-    let slack = window.length * 1e-3;
-    let end = window.start + window.length;
-    if workspace.player.is_playing() || (window.start - slack..=end + slack).contains(&at) {
-        return;
+    let moved = workspace.scene.window().showing(f64::from(workspace.player.time()));
+    if moved.is_some() && !workspace.player.is_playing() {
+        workspace.scene.set_window(moved);
     }
-    let margin = 0.1 * window.length;
-    let by = if at > end { at - end + margin } else { at - window.start - margin };
-    workspace.scene.set_window(Some(window.panned(by)));
 }
 
 /// Sets the frame rate where the scene states it: in its script, otherwise in its project; in the script where neither does.

@@ -266,21 +266,15 @@ impl KeyEditing {
     /// Shows the part of time with the playhead at `time`, if it is out of sight.
     pub(super) fn bring_into_sight(&mut self, take: &Take, time: f32) {
         let (at, window) = (f64::from(time), self.window(take));
+        // The length of the window stays.
+        let Some(moved) = window.showing(at) else { return };
         let end = window.start + window.length;
-        // The slack allows for rounding to single precision.
-        let slack = window.length * 1e-3;
-        if (window.start - slack..=end + slack).contains(&at) {
-            return;
-        }
         let whole = window.start <= f64::from(take.start) && end >= f64::from(take.end());
         let shown = if whole {
             let (first, last) = (window.start.min(at), end.max(at));
             TimeWindow { start: first, length: (last - first) * (1.0 + MARGIN) }
-        } else if at > end {
-            // The length of the window stays.
-            window.panned(at - end + window.length * MARGIN)
         } else {
-            window.panned(at - window.start - window.length * MARGIN)
+            moved
         };
         self.show_window(Some(shown), take, time);
     }

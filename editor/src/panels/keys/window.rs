@@ -44,6 +44,18 @@ impl TimeWindow {
         Self { start: self.start + by, ..self }.sanitized()
     }
 
+    /// Returns the window moved so that a time is in sight, a tenth of its length from the edge; `None` where it is in sight.
+    pub fn showing(self, at: f64) -> Option<Self> {
+        let end = self.start + self.length;
+        // The slack allows for rounding to single precision.
+        let slack = self.length * 1e-3;
+        if (self.start - slack..=end + slack).contains(&at) {
+            return None;
+        }
+        let margin = self.length * 0.1;
+        Some(self.panned(if at > end { at - end + margin } else { at - self.start - margin }))
+    }
+
     /// Returns the window moved so that at least a part of `first..=last` is in sight, and limited to three times that length, or
     /// to what a short take may grow to.
     pub fn near(self, first: f64, last: f64) -> Self {
