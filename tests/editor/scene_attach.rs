@@ -5,7 +5,7 @@ use crate::scene_lines::{at, run, send};
 use crate::workbench::Window;
 use dragonfly::control::{InputEvent, Key};
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::dropped_files::{DropPlace, DroppedModels};
+use dragonfly::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels};
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::data::Transform;
@@ -70,7 +70,7 @@ fn a_model_dropped_on_a_bone_is_a_prop_that_the_bone_holds_from_the_start() {
     assert_eq!(drop_at(&mut window, FLANK, "/scenes/Fox.glb"), None);
     let new = new_lines(FOXES, &text(&window));
     assert_eq!((new.len(), window.state().steps()), (2, (1, 1)), "{new:?}");
-    assert_eq!(new[0], r#"<prop id="Fox" model="Fox.glb" at="0 0 0"/>"#);
+    assert_eq!(new[0], r#"<prop id="Fox" model="Fox.glb" at="0 0 0" scale="0.021"/>"#);
     assert!(new[1].starts_with(r#"<attach who="Fox" to="anna.b_"#) && !new[1].contains("begin"), "{new:?}");
     let things = window.state().state.read().scene_editing.things().to_vec();
     assert_eq!(things, [Box::from("Fox")]);
@@ -86,6 +86,8 @@ fn a_model_dropped_beside_bones_stands_there_as_a_figure_or_an_object() {
     assert_eq!(drop_at(&mut window, DVec3::new(0.0, 0.0, 1.5), "/scenes/Fox.glb"), None);
     let new = new_lines(FOXES, &text(&window));
     assert!(new.len() == 1 && new[0].starts_with("<role id=\"Fox\""), "{new:?}");
+    // It would be as high as a house.
+    assert!(new[0].ends_with("scale=\"0.021\"/>") && said(&window, "not of human size"), "{new:?}");
     window.state_mut().change(Change::Undo);
     window.run_steps(2);
     // A model that the scene has not read is read first.
@@ -94,7 +96,7 @@ fn a_model_dropped_beside_bones_stands_there_as_a_figure_or_an_object() {
     assert_eq!(text(&window), FOXES);
     let DropPlace::At(place) = unknown.place else { panic!("{unknown:?}") };
     assert!(place.distance(DVec3::new(0.0, 0.0, 1.5)) < 0.02, "{place}");
-    let models = vec![("table.glb".to_owned(), false)];
+    let models = vec![DroppedModel { name: "table.glb".to_owned(), is_figure: false, scale: 1.0 }];
     let dropped = DroppedModels { models, place: unknown.place.clone(), sounds: Vec::new() };
     execute(&mut window, Request::DroppedModels(Box::new(dropped)));
     let new = new_lines(FOXES, &text(&window));

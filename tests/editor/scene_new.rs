@@ -72,6 +72,7 @@ fn a_new_scene_with_a_model_lists_it_once_and_both_roles_play_it() {
     assert_eq!(models(&path), [("the_fox".to_owned(), "The Fox.glb".to_owned(), hash(&model))]);
     let script = fs::read_to_string(folder.join("scene-2.xml")).expect("a script");
     assert_eq!(script.matches("model=\"the_fox\"").count(), 2);
+    assert!(script.contains("look=\"ben.b_Head_05\""), "the close shot shows a face: {script}");
 }
 
 #[test]

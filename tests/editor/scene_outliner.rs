@@ -3,8 +3,10 @@
 use crate::scene_bench::{FOXES, new_lines, project, scene, text};
 use crate::workbench::{Window, type_into};
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::file_choice::FileChoice;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
+use dragonfly_picture::ThroughCamera;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
@@ -117,4 +119,42 @@ fn only_the_rows_in_sight_are_drawn_and_a_name_that_is_typed_is_brought_into_sig
     let named: Vec<String> =
         text(&window).lines().filter(|line| line.contains("2500 0 0")).map(str::to_owned).collect();
     assert_eq!(named, ["    <mark id=\"goal\" at=\"2500 0 0\"/>"]);
+}
+
+#[test]
+fn the_hint_of_a_row_is_shown_while_the_pointer_rests_on_it() {
+    let mut window = window();
+    for (row, hint) in [("anna, role", "edit its takes and bones"), ("sun, light", "rename")] {
+        window.get_by_label(row).hover();
+        window.run_steps(60);
+        assert!(window.query_all_by_label_contains(hint).count() == 1, "{row}");
+    }
+}
+
+#[test]
+fn the_menu_of_a_row_hides_frames_and_looks_through_its_thing() {
+    let mut window = window();
+    window.get_by_label("close, camera").click_secondary();
+    window.run_steps(3);
+    assert_eq!(things(&window), ["close"]);
+    window.get_by_label("Look through it").click();
+    window.run_steps(3);
+    assert_eq!(*window.state().state.read().through, ThroughCamera::Of("close".into()));
+    window.get_by_label("ben, role").click_secondary();
+    window.run_steps(3);
+    for entry in ["Frame selected", "Hide things", "Lock things", "Drop to the ground"] {
+        assert!(window.query_all_by_label_contains(entry).next().is_some(), "{entry}");
+    }
+}
+
+#[test]
+fn a_sound_is_added_by_a_command_and_the_sound_track_of_a_model_is_not_offered() {
+    let mut window = window();
+    let effect = window.state_mut().state.execute(Request::Command(Id::AddSceneSound));
+    assert!(matches!(effect, Some(Effect::Choose(FileChoice::SceneSound, _))), "{effect:?}");
+    let effect = window.state_mut().state.execute(Request::AddSound("/scenes/steps.wav".into()));
+    assert_eq!(effect, None);
+    assert_eq!(new_lines(FOXES, &text(&window)), [r#"<sound src="steps.wav"/>"#]);
+    let effect = window.state_mut().state.execute(Request::Command(Id::ChooseSound));
+    assert_eq!(effect, None, "a scene has its own sounds");
 }

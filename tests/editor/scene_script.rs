@@ -115,6 +115,45 @@ fn a_suggestion_is_taken_with_tab() {
 }
 
 #[test]
+fn escape_closes_the_suggestions_and_the_text_keeps_the_keys() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "    <par id=\"scene-1\">"));
+    type_text(&mut window, "<wa");
+    assert!(window.query_by_label("wait").is_some(), "suggestions");
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    assert!(window.query_by_label("wait").is_none(), "they are closed");
+    type_text(&mut window, "xq");
+    assert!(text(&window).contains("<waxq"), "what follows is typed");
+    window.key_press(Key::Escape);
+    window.run_steps(2);
+    type_text(&mut window, "z");
+    assert!(!text(&window).contains("<waxqz"), "without suggestions it leaves the text");
+}
+
+#[test]
+fn a_new_line_after_a_long_one_is_typed_in_sight() {
+    let long = format!("  <!-- {} -->", "far ".repeat(120));
+    let script = FOXES.replace("  <!-- Two foxes meet. -->", &long);
+    let mut window = scene(&script).window();
+    let left = |window: &Window| window.get_by_label("Script of the scene").rect().left();
+    put_cursor(&mut window, place(&script, &long));
+    window.run_steps(30);
+    let start = left(&window);
+    window.key_press(Key::End);
+    window.run_steps(30);
+    window.key_press(Key::ArrowLeft);
+    window.run_steps(30);
+    let far = left(&window);
+    window.key_press(Key::Home);
+    window.run_steps(30);
+    let near = left(&window);
+    assert!(far < near - 100.0 && start <= near, "{start} {far} {near}");
+    let panel = window.get_by_label("Script of the scene").rect();
+    assert!(near >= panel.left() && near > 0.0, "the start of a line is beside its number: {near}");
+}
+
+#[test]
 fn what_is_selected_elsewhere_is_where_the_text_is_scrolled_to_and_the_cursor_selects() {
     let mut window = scene(FOXES).window();
     put_cursor(&mut window, place(FOXES, "<camera id=\"clo"));

@@ -200,6 +200,20 @@ fn the_text_of_the_project_is_typed_in_the_script_panel_and_another_script_is_ch
     }
     window.run_steps(2);
     assert_eq!(project(&window), PROJECT);
+    // Words of projects are completed.
+    let at = PROJECT.find("</cast>").expect("a cast");
+    let mut state = TextEditState::load(&window.ctx, id).unwrap_or_default();
+    state.cursor.set_char_range(Some(CCursorRange::one(CCursor::new(at))));
+    state.store(&window.ctx, id);
+    window.run_steps(2);
+    type_text(&mut window, "<mar");
+    window.key_press(Key::Tab);
+    window.run_steps(3);
+    assert_eq!(project(&window), PROJECT.replace("</cast>", "<mark id=\"\" at=\"\"/></cast>"));
+    for _ in 0..window.state().steps().0 {
+        window.state_mut().change(Change::Undo);
+    }
+    window.run_steps(2);
     window.get_by_label("Text: scene.meproj").click();
     window.run_steps(3);
     let request = Request::Scene(SceneRequest::ShowScript("end.xml".into()));

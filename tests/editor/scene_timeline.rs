@@ -131,7 +131,7 @@ fn ends_and_fades_are_dragged_by_their_handles() {
     window.run_steps(2);
     let lanes = Lanes::of(&window);
     let bar = lanes.bar(&window, LOOK);
-    let handle = pos2(bar.left() + (0.25 * lanes.scale.per_second()) as f32, bar.top() + 3.0);
+    let handle = pos2(bar.left() + (0.25 * lanes.scale.per_second()) as f32 + 12.0, bar.top() + 3.0);
     drag(&mut window, handle, 0.25, Modifiers::NONE);
     let line = r#"<look who="ben" at="anna" bones="b_Head_05" begin="looks.sees" dur="2" fade-in="0.5" fade-out="0.25"/>"#;
     assert_eq!(new_lines(FOXES, &text(&window)), [line]);
@@ -153,8 +153,11 @@ fn every_part_of_a_bar_is_where_it_is_drawn() {
     assert_eq!(part(at(bar.left() + 2.0, bar.bottom() - 2.0)), Some(SceneBarPart::Start));
     assert_eq!(part(at(bar.right() - 2.0, bar.bottom() - 2.0)), Some(SceneBarPart::End));
     let fade = (0.5 * lanes.scale.per_second()) as f32;
-    assert_eq!(part(at(bar.left() + fade, bar.top() + 2.0)), Some(SceneBarPart::FadeIn));
-    assert_eq!(part(at(bar.right(), bar.top() + 2.0)), Some(SceneBarPart::FadeOut));
+    assert_eq!(part(at(bar.left() + fade + 12.0, bar.top() + 2.0)), Some(SceneBarPart::FadeIn));
+    assert_eq!(part(at(bar.right() - 12.0, bar.top() + 2.0)), Some(SceneBarPart::FadeOut));
+    // The ends of a bar trim it over its whole height, also where nothing fades.
+    assert_eq!(part(at(bar.right() - 2.0, bar.top() + 2.0)), Some(SceneBarPart::End));
+    assert_eq!(part(at(bar.left() + 2.0, bar.top() + 2.0)), Some(SceneBarPart::Start));
     assert!(matches!(at(bar.right() + 12.0, middle.y), SceneHit::Lane(_)));
     assert_eq!(at(middle.x, lanes.canvas.top() + lanes.layout.height() + 5.0), SceneHit::Nothing);
 }

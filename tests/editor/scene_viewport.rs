@@ -7,12 +7,13 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::request::FileAction;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
+use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{Change, DocumentMessage, View};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::gizmo::GizmoView;
-use egui::{Key, pos2};
+use egui::{Event, Key, Modifiers, PointerButton, pos2};
 use egui_kittest::kittest::Queryable;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -249,4 +250,58 @@ fn a_model_is_opened_at_the_time_and_the_place_that_it_has_in_the_scene_and_seen
     // Another model, opened for itself, has nothing around it.
     bench.state.show(View { generation: 9, ..fixture::full() });
     assert!(bench.state.read().around.is_none());
+}
+
+#[test]
+fn a_model_on_a_way_is_opened_with_the_take_for_walking_at_its_step() {
+    let mut bench = scene(FOXES);
+    let time = 1.5;
+    bench.state.execute(Request::Seek(time));
+    let plan = bench.state.read().scene().expect("a scene").plan.clone().expect("a plan");
+    let ben = plan.thing_called("ben").expect("a role");
+    let (_, _, after) = plan.take_at(ben, StageTime::from_seconds(f64::from(time))).expect("a take");
+    assert!(after > StageTime::ZERO);
+    bench.state.execute(Request::Scene(SceneRequest::EditModel("ben".into())));
+    let loaded = match &bench.state.read().scene().expect("a scene").models["Fox.glb"] {
+        dragonfly_document::SceneModel::Loaded(loaded) => Arc::clone(loaded),
+        other => panic!("{other:?}"),
+    };
+    let walk = loaded.model.animation.takes.iter().position(|take| take.name == "Walk").expect("a take");
+    bench.state.show(View { waiting_scene: Some("scene.xml".into()), ..View::opened(5, loaded) });
+    let read = bench.state.read();
+    assert_eq!(read.playback.take, Some(walk));
+    assert!((f64::from(read.time()) - after.seconds()).abs() < 1e-3, "{} s, not {after:?}", read.time());
+}
+
+#[test]
+fn a_right_click_in_the_viewport_opens_the_menu_of_the_thing_there() {
+    let mut window = scene(FOXES).window();
+    window.run_steps(3);
+    let middle = window.get_by_label("Viewport").rect().center();
+    window.event(Event::PointerMoved(middle));
+    window.run_steps(2);
+    assert!(window.state_mut().state.set_pointed_thing(Some("ben".into())));
+    for pressed in [true, false] {
+        let button = PointerButton::Secondary;
+        window.event(Event::PointerButton { pos: middle, button, pressed, modifiers: Modifiers::NONE });
+        window.run_steps(2);
+    }
+    window.run_steps(2);
+    let things = window.state().state.read().scene_editing.things().to_vec();
+    assert_eq!(things, [Box::from("ben")]);
+    assert!(window.query_by_label("Edit takes and bones").is_some(), "its menu");
+}
+
+#[test]
+fn nothing_is_highlighted_any_more_when_the_pointer_has_left_the_viewport() {
+    let mut window = scene(FOXES).window();
+    window.run_steps(3);
+    let middle = window.get_by_label("Viewport").rect().center();
+    window.event(Event::PointerMoved(middle));
+    window.run_steps(2);
+    assert!(window.state_mut().state.set_pointed_thing(Some("ben".into())));
+    assert!(window.state().state.read().stage.hovered().is_some());
+    window.event(Event::PointerMoved(egui::pos2(5.0, 5.0)));
+    window.run_steps(2);
+    assert!(window.state().state.read().stage.hovered().is_none());
 }

@@ -37,10 +37,29 @@ pub struct LoadedModel {
     pub notes: Vec<String>,
 }
 
+/// Height of a human, meters.
+const HUMAN_HEIGHT: f32 = 1.7;
+
 impl LoadedModel {
     /// Returns whether it has takes or moves a skin; otherwise it is an object, as props are.
     pub fn is_figure(&self) -> bool {
         !self.model.animation.takes.is_empty() || !self.model.skins.is_empty()
+    }
+
+    /// Returns its height at the start of its first take, meters.
+    pub fn height(&self) -> f32 {
+        self.bounds.max.y - self.bounds.min.y
+    }
+
+    /// Returns the factor that makes a figure as high as a human, with two digits, where it is much larger or smaller; otherwise 1.
+    pub fn human_scale(&self) -> f64 {
+        let height = self.height();
+        if !(height.is_finite() && height > 0.0) || (0.5..=4.0).contains(&height) {
+            return 1.0;
+        }
+        let scale = f64::from(HUMAN_HEIGHT / height);
+        let digits = 10_f64.powi(1 - scale.log10().floor() as i32);
+        (scale * digits).round() / digits
     }
 
     /// Returns the model with this skeleton, which edits made from that of `opened`.

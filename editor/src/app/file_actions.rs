@@ -160,6 +160,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                 FileChoice::DemoScene => Request::DemoScene(path),
                 FileChoice::Role => Request::AddRole(path),
                 FileChoice::Prop => Request::AddProp(path),
+                FileChoice::SceneSound => Request::AddSound(path),
                 FileChoice::MissingModel | FileChoice::MissingSound => Request::FileFound(path),
                 FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
                 FileChoice::MappedTakes => {

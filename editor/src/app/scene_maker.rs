@@ -6,16 +6,13 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction};
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_anim::stage::script::ScriptTree;
-use dragonfly_document::{Cancel, Folder, LoadedModel, Source, Then, load_model, make_folder, read_file};
+use dragonfly_document::{Cancel, Folder, Source, Then, load_model, make_folder, read_file};
 use dragonfly_runtime::{Address, Job, JobContext};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The path of the scene that was written, or the reason why there is none.
 pub type SceneAnswer = Result<PathBuf, String>;
-
-/// Height of a role in a new scene, meters, where its model is far from human size.
-const HEIGHT: f32 = 1.7;
 
 /// Starts to write a project with a scene of two roles with a model.
 pub fn make(model: PathBuf, to: &Address<SceneAnswer>) -> std::io::Result<()> {
@@ -146,29 +143,29 @@ fn written(folder: &Path, models: [PathBuf; 2], take: Option<&str>) -> SceneAnsw
     }
     let listed = ListedModel::listed(files);
     let ids = [listed.first(), listed.last()].map(|model| model.map_or("", |model| model.id.as_str()));
-    let moving = loaded.model.animation.takes.iter().find(|take| take.length > 0.0);
-    let take = take.or_else(|| moving.map(|take| take.name.as_str()));
+    let mut moving = loaded.model.animation.takes.iter().filter(|take| take.length > 0.0);
+    // Standing figures are the start of most scenes.
+    let idle = moving.clone().find(|take| take.name.to_lowercase().contains("idle"));
+    let take = take.or_else(|| idle.or_else(|| moving.next()).map(|take| take.name.as_str()));
+    let scale = loaded.human_scale();
+    let face = match loaded.model.animation.skeleton.bones.iter().find(|bone| is_head(&bone.name)) {
+        Some(head) => format!("ben.{}", head.name),
+        None => format!("1 {:.2} 0", 0.85 * f64::from(loaded.height()) * scale),
+    };
     let script = free_name(folder, Path::exists);
     let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let (project, lines) = (script.with_extension("meproj"), script.with_extension("lines.xml"));
     let [project_text, lines_text] = project_texts(&name(&script), &name(&lines), &listed);
-    write_new(&script, duel_text(ids, scale_of(&loaded), take).as_bytes())?;
+    write_new(&script, duel_text(ids, scale, &face, take).as_bytes())?;
     write_new(&lines, lines_text.as_bytes())?;
     // The project last: what it names is there.
     write_new(&project, project_text.as_bytes())?;
     Ok(project)
 }
 
-/// Returns the factor that makes a model as high as a human, where it is much larger or smaller.
-fn scale_of(loaded: &LoadedModel) -> f64 {
-    let height = loaded.bounds.max.y - loaded.bounds.min.y;
-    if !(height.is_finite() && height > 0.0) || (0.5..=4.0).contains(&height) {
-        return 1.0;
-    }
-    let scale = f64::from(HEIGHT / height);
-    // Two digits, so that it is easy to read.
-    let digits = 10_f64.powi(1 - scale.log10().floor() as i32);
-    (scale * digits).round() / digits
+/// Returns whether a bone with this name is a head: `head` is one of its words.
+fn is_head(name: &str) -> bool {
+    name.split(|letter: char| !letter.is_ascii_alphabetic()).any(|word| word.eq_ignore_ascii_case("head"))
 }
 
 /// Opens the scene that a job has written.

@@ -1,6 +1,6 @@
 //! Files that a scene is to get: dropped onto it, chosen, or found in the place of missing ones.
 
-use dragonfly_document::{MissingFile, SceneFiles};
+use dragonfly_document::{LoadedModel, MissingFile, SceneFiles};
 use glam::DVec3;
 use std::path::PathBuf;
 
@@ -15,11 +15,31 @@ pub enum DropPlace {
     Nowhere,
 }
 
+/// A model that was dropped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DroppedModel {
+    /// The model as the script names it.
+    pub name: String,
+    /// Whether it becomes a role; otherwise it is a prop.
+    pub is_figure: bool,
+    /// Factor from its lengths to meters.
+    pub scale: f64,
+}
+
+impl DroppedModel {
+    /// Creates one of a model that was read. A figure that is far from human size is made as high as a human. `is_role` is what the user wants.
+    pub fn of(name: String, loaded: &LoadedModel, is_role: Option<bool>) -> Self {
+        let is_figure = loaded.is_figure();
+        let scale = if is_figure { loaded.human_scale() } else { 1.0 };
+        Self { name, is_figure: is_role.unwrap_or(is_figure), scale }
+    }
+}
+
 /// Files that were dropped, with what is known of the models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DroppedModels {
-    /// The models as the script names them, and whether each has takes or moves a skin.
-    pub models: Vec<(String, bool)>,
+    /// The models.
+    pub models: Vec<DroppedModel>,
     /// The place at which they were dropped.
     pub place: DropPlace,
     /// The sounds as the script names them.
@@ -31,6 +51,8 @@ pub struct DroppedModels {
 pub struct UnknownModels {
     /// The models: their files, and how the script names them.
     pub models: Vec<(PathBuf, String)>,
+    /// Whether they become roles or props, where the user said so.
+    pub is_role: Option<bool>,
     /// The place at which they were dropped.
     pub place: DropPlace,
     /// The sounds as the script names them.

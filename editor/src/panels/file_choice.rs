@@ -18,12 +18,14 @@ pub enum FileChoice {
     Takes,
     /// The model of a new scene.
     NewScene,
-    /// The folder of a new scene with the built-in model.
+    /// The folder of a new scene of two built-in figures.
     DemoScene,
     /// The model of a new role of the scene.
     Role,
     /// The model of a new prop of the scene.
     Prop,
+    /// The file of a new sound of the scene.
+    SceneSound,
     /// The file in place of a missing model of the scene.
     MissingModel,
     /// The file in place of a missing sound of the scene.
@@ -38,7 +40,7 @@ impl FileChoice {
         match self {
             Self::PoseFolder => "Choose the folder of poses",
             Self::Reference => "Choose a reference picture",
-            Self::Sound => "Choose a sound",
+            Self::Sound | Self::SceneSound => "Choose a sound",
             Self::RetargetSource => "Choose the model with the take",
             Self::NewScene => "Choose the model of the two roles",
             Self::DemoScene => "Choose the folder of the new scene",
@@ -55,7 +57,7 @@ impl FileChoice {
         match self {
             Self::PoseFolder | Self::DemoScene => None,
             Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
-            Self::Sound | Self::MissingSound => Some((
+            Self::Sound | Self::SceneSound | Self::MissingSound => Some((
                 "Sounds",
                 SOUND_FORMATS.iter().flat_map(|format| format.extensions.iter().copied()).collect(),
             )),
@@ -79,6 +81,9 @@ impl FileChoice {
             }
             Self::NewScene | Self::DemoScene => {
                 "This desktop has no dialog for choosing files; open a scene.xml instead"
+            }
+            Self::SceneSound => {
+                "This desktop has no dialog for choosing files; drop the sound on the window or write it into the script"
             }
             Self::Role | Self::Prop => {
                 "This desktop has no dialog for choosing files; drop the model on the window or write it into the script"

@@ -197,7 +197,7 @@ const GROUP_ENDS: &[Id] = &[
     Id::Retarget,
     // Scene
     Id::ProjectFromScene,
-    Id::AddMark,
+    Id::AddSceneSound,
     Id::ToggleGroundSnap,
     Id::PickFocus,
     Id::NextShot,

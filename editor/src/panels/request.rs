@@ -147,9 +147,11 @@ pub enum Request {
     AddRole(PathBuf),
     /// Adds this model to the scene as a prop.
     AddProp(PathBuf),
+    /// Adds this sound to the scene, at the playhead.
+    AddSound(PathBuf),
     /// Makes a scene of two roles with this model, next to its file, and opens it.
     NewScene(PathBuf),
-    /// Writes the built-in model and a scene of two roles with it into this folder, and opens the scene.
+    /// Writes two figures and a scene with them into this folder, and opens the scene.
     DemoScene(PathBuf),
 }
 
@@ -202,7 +204,7 @@ pub enum Effect {
     File(FileAction),
     /// Writes a scene of two roles with this model next to its file, and opens it.
     NewScene(PathBuf),
-    /// Writes the built-in model and a scene of two roles with it into this folder, and opens the scene.
+    /// Writes two figures and a scene with them into this folder, and opens the scene.
     DemoScene(PathBuf),
     /// Reads these models, then executes [`Request::DroppedModels`].
     LookAtModels(Box<UnknownModels>),

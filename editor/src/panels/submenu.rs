@@ -17,3 +17,12 @@ pub(super) fn submenu<R>(
         ui.menu_button(title, entries);
     });
 }
+
+/// Draws an entry that is no command, with its title below those of the others.
+pub(super) fn entry(ui: &mut Ui, title: &str) -> egui::Response {
+    ui.scope(|ui| {
+        ui.spacing_mut().button_padding.x += GUTTER;
+        ui.add(egui::Button::new(title).frame_when_inactive(false))
+    })
+    .inner
+}

@@ -2,6 +2,7 @@
 
 use super::actors::{assets, fox, fox_script, planned};
 use super::{DUEL, random_scripts};
+use dragonfly_anim::stage::table::PROJECTS;
 use dragonfly_anim::stage::writing::{CompletionNames, TokenKind, completions, tokens};
 use dragonfly_kit::random::{Random, seed};
 
@@ -74,6 +75,33 @@ fn attributes_are_those_that_are_not_written_yet_with_the_required_ones_first() 
     let found = plain(&format!("{CAST}<move who=\"anna\" to=\"ben\" |/>"));
     assert!(!found.contains(&"path".to_owned()), "a move has either a path or a place to go to: {found:?}");
     assert_eq!(taken(&format!("{CAST}<wait du|/>")), format!("{CAST}<wait dur=\"|\"/>"));
+}
+
+#[test]
+fn the_text_of_a_project_has_its_own_elements_attributes_and_names() {
+    let names = CompletionNames {
+        vocabulary: &PROJECTS,
+        models: &["anna.glb"],
+        scripts: &["end.xml"],
+        ..CompletionNames::default()
+    };
+    let suggested = |text: &str| suggested(text, &names);
+    assert_eq!(suggested("<|"), ["project"]);
+    assert_eq!(suggested("<project version=\"1\"><mo|"), ["models", "movie"]);
+    assert_eq!(suggested("<project version=\"1\"><models><|"), ["model", "edits"]);
+    assert_eq!(suggested("<project version=\"1\"><cast><rol|"), ["role"]);
+    assert_eq!(
+        suggested("<project version=\"1\"><script |/>"),
+        ["id", "src"],
+        "not those of a script's root"
+    );
+    assert_eq!(suggested("<project version=\"1\"><script src=\"|\"/>"), ["end.xml"]);
+    assert_eq!(suggested("<project version=\"1\"><scene tone=\"n|\"/>"), ["neutral", "none"]);
+    let models = "<project version=\"1\"><models><model id=\"anna\" src=\"a.glb\"/><edits of=\"|";
+    assert_eq!(suggested(models), ["anna"]);
+    let movie = "<project version=\"1\"><script id=\"day\" src=\"day.xml\"/><movie id=\"all\" script=\"|";
+    assert_eq!(suggested(movie), ["day"]);
+    assert_eq!(suggested("<project version=\"1\"><models><model id=\"a\" src=\"|"), ["anna.glb"]);
 }
 
 #[test]

@@ -275,6 +275,15 @@ impl StagePlan {
         self.things.get(thing)?.places.in_progress(time)
     }
 
+    /// Returns the take that a thing plays at `time`, the one that began last: the action that plays it, its index in the model, and the time since its
+    /// start. `None` while it plays none with its whole body, and past the end.
+    pub fn take_at(&self, thing: usize, time: StageTime) -> Option<(usize, usize, StageTime)> {
+        let thing = self.things.get(thing)?;
+        let lane = thing.poses.first()?;
+        let cue = lane.cues[..lane.cues.partition_point(|cue| cue.span.begin <= time)].last()?;
+        Some((cue.span.action, cue.take, poses::take_time(cue, &thing.places, time)))
+    }
+
     /// Returns the length of the way on which an action leads a thing, meters; `None` for an action that leads it nowhere.
     pub fn way_length(&self, thing: usize, action: usize) -> Option<f64> {
         self.things.get(thing)?.places.way_length(action)

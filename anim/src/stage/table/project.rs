@@ -1,4 +1,8 @@
 //! Projects: the models, scripts, lines and movies that belong together.
+//!
+//! There is no element for clips of other files: a take that is imported into a model becomes a part of it, with its own edits, and is saved
+//! and retargeted there. A second list of takes, which exist in the project only, would need names, a map of bones and a way to edit them
+//! of its own, and other programs would not see them.
 
 use super::cast::CAST;
 use super::row::{AttributeRow, ElementGroup, ElementRow, optional, required};

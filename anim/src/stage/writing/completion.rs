@@ -4,7 +4,9 @@ use super::cursor::{AfterName, CursorPlace, OpenTag, place};
 use super::names::{NamedElement, named_elements};
 use crate::stage::project::StageProject;
 use crate::stage::splice::escaped;
-use crate::stage::table::{ElementGroup, ElementRow, NameReference, PROPERTIES, children_of, element};
+use crate::stage::table::{
+    ElementGroup, ElementRow, NameReference, PROPERTIES, SCRIPTS, Vocabulary, element,
+};
 use crate::stage::{StageModel, StagePlan};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -54,9 +56,11 @@ pub struct Completions {
     pub items: Vec<CompletionItem>,
 }
 
-/// Names that are not in the text.
-#[derive(Clone, Copy, Debug, Default)]
+/// The kind of the text, and names that are not in it.
+#[derive(Clone, Copy, Debug)]
 pub struct CompletionNames<'a> {
+    /// The kind of the text: a script or a project.
+    pub vocabulary: &'static Vocabulary,
     /// The last plan that worked, for takes and bones.
     pub plan: Option<&'a StagePlan>,
     /// The project of the text, for the things that it shares.
@@ -71,14 +75,30 @@ pub struct CompletionNames<'a> {
     pub scripts: &'a [&'a str],
 }
 
+impl Default for CompletionNames<'_> {
+    fn default() -> Self {
+        Self {
+            vocabulary: &SCRIPTS,
+            plan: None,
+            project: None,
+            models: &[],
+            lines: &[],
+            sounds: &[],
+            scripts: &[],
+        }
+    }
+}
+
 /// Returns what may be written at byte `at` of a text; `None` where nothing is suggested.
 pub fn completions(text: &str, at: usize, names: &CompletionNames<'_>) -> Option<Completions> {
     let (range, items) = match place(text, at)? {
-        CursorPlace::Element { name, continues, around } => (name, elements(around, continues)),
+        CursorPlace::Element { name, continues, around } => {
+            (name, elements(names.vocabulary, around, continues))
+        }
         CursorPlace::End { name, around } => {
             (name, vec![item(CompletionKind::Element, around, format!("{around}>"), "End of the element")])
         }
-        CursorPlace::Attribute { name, next, tag } => (name, attributes(&tag, next)),
+        CursorPlace::Attribute { name, next, tag } => (name, attributes(names.vocabulary, &tag, next)),
         CursorPlace::Value { typed, whole, attribute, tag } => {
             let value = text.get(typed.clone())?;
             // Lists of names are completed name by name.
@@ -107,10 +127,10 @@ fn word(kind: CompletionKind, word: &str, help: &str) -> CompletionItem {
 }
 
 /// Returns the elements that may be in another one; only their names for a tag that `continues`.
-fn elements(around: Option<&str>, continues: bool) -> Vec<CompletionItem> {
+fn elements(vocabulary: &Vocabulary, around: Option<&str>, continues: bool) -> Vec<CompletionItem> {
     let rows: Vec<&ElementRow> = match around {
-        Some(around) => element(around).map_or(Vec::new(), children_of),
-        None => element("script").into_iter().collect(),
+        Some(around) => vocabulary.element(around).map_or(Vec::new(), |row| vocabulary.children_of(row)),
+        None => vec![vocabulary.root],
     };
     let inserted = |row: &&ElementRow| {
         if continues {
@@ -118,8 +138,13 @@ fn elements(around: Option<&str>, continues: bool) -> Vec<CompletionItem> {
         }
         let required = row.rows().filter(|attribute| attribute.required);
         let attributes: String = required.map(|attribute| format!(" {}=\"\"", attribute.name)).collect();
-        let is_container =
-            matches!(row.group, ElementGroup::Container | ElementGroup::Cast | ElementGroup::Script);
+        let is_container = match row.group {
+            ElementGroup::Script | ElementGroup::Cast | ElementGroup::Container | ElementGroup::Project => {
+                true
+            }
+            ElementGroup::Part => !row.parts.is_empty(),
+            ElementGroup::Thing | ElementGroup::Action => false,
+        };
         let end = if is_container { format!("></{}>", row.name) } else { "/>".to_owned() };
         let insert = format!("{}{attributes}{end}", row.name);
         // Into the first value, else between the tags.
@@ -138,8 +163,8 @@ fn elements(around: Option<&str>, continues: bool) -> Vec<CompletionItem> {
     rows.iter().map(inserted).collect()
 }
 
-fn attributes(tag: &OpenTag<'_>, next: AfterName) -> Vec<CompletionItem> {
-    let Some(row) = tag.row() else { return Vec::new() };
+fn attributes(vocabulary: &Vocabulary, tag: &OpenTag<'_>, next: AfterName) -> Vec<CompletionItem> {
+    let Some(row) = tag.row(vocabulary) else { return Vec::new() };
     let is_excluded =
         |name: &str| row.one_of.contains(&name) && row.one_of.iter().any(|other| tag.value(other).is_some());
     let mut rows: Vec<_> = row
@@ -166,7 +191,9 @@ fn values(
     text: &str,
     names: &CompletionNames<'_>,
 ) -> Vec<CompletionItem> {
-    let Some((element, row)) = tag.row().and_then(|row| Some((row, row.attribute(attribute)?))) else {
+    let Some((element, row)) =
+        tag.row(names.vocabulary).and_then(|row| Some((row, row.attribute(attribute)?)))
+    else {
         return Vec::new();
     };
     if !row.value.choices.is_empty() {
@@ -185,10 +212,24 @@ fn values(
         "take" => takes(model(tag.value("who"))),
         "bones" => bones(model(tag.value("who")), ""),
         "property" => properties(&ids, tag.value("who")),
-        "model" => files(names.models),
+        "model" => {
+            let mut found = named(&ids, "model");
+            found.extend(
+                files(names.models)
+                    .into_iter()
+                    .filter(|file| !ids.iter().any(|named| named.id == file.label)),
+            );
+            found
+        }
         "line" => files(names.lines),
-        "src" if element.name == "include" => files(names.scripts),
-        "src" => files(names.sounds),
+        "src" => match element.name {
+            "sound" => files(names.sounds),
+            "include" | "script" => files(names.scripts),
+            "model" => files(names.models),
+            _ => Vec::new(),
+        },
+        "of" => named(&ids, "model"),
+        "script" => named(&ids, "script"),
         "repeat" => vec![word(CompletionKind::Word, "fill", "For as long as there is time")],
         _ => match row.reference() {
             Some(NameReference::Moment) => moments(&ids),
@@ -201,6 +242,12 @@ fn values(
 
 fn files(names: &[&str]) -> Vec<CompletionItem> {
     names.iter().map(|file| word(CompletionKind::File, file, "")).collect()
+}
+
+/// Returns the ids of the elements of one name.
+fn named(ids: &[NamedElement<'_>], kind: &str) -> Vec<CompletionItem> {
+    let of_kind = ids.iter().filter(|named| named.kind == kind);
+    of_kind.map(|named| word(CompletionKind::Word, named.id, kind)).collect()
 }
 
 fn is_thing(kind: &str) -> bool {

@@ -1,7 +1,7 @@
 //! The part of the text at the cursor: the name of an element, of an attribute, or a value.
 
 use super::tokens::{ScriptToken, TokenKind, tokens};
-use crate::stage::table::{ElementRow, element};
+use crate::stage::table::{ElementRow, Vocabulary};
 use std::ops::Range;
 
 /// The place of the cursor in a text.
@@ -66,9 +66,9 @@ pub(super) struct OpenTag<'a> {
 }
 
 impl OpenTag<'_> {
-    /// Returns the row of the element.
-    pub(super) fn row(&self) -> Option<&'static ElementRow> {
-        element(self.name)
+    /// Returns the row of the element in a kind of text.
+    pub(super) fn row(&self, vocabulary: &Vocabulary) -> Option<&'static ElementRow> {
+        vocabulary.element(self.name)
     }
 
     /// Returns the value of an attribute.

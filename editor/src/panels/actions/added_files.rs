@@ -2,9 +2,9 @@
 
 use super::scene_gizmo::joined;
 use super::scene_text::{add_all, gesture};
-use crate::panels::dropped_files::{DropPlace, DroppedModels, UnknownModels};
+use crate::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, UnknownModels};
 use crate::panels::request::Effect;
-use crate::panels::scene::{ChangedThings, NewThing, new_thing_splices, with_new_sound};
+use crate::panels::scene::{ChangedThings, NewModel, NewThing, new_thing_splices, with_new_sound};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureScene, attach_splices, spliced_text};
@@ -17,18 +17,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Adds files of the folder of the scene to it: models with their names, and the names of sounds, which begin at the playhead. Models that the scene
-/// does not know yet are looked at first.
+/// does not know yet are looked at first. Models with takes or a skin become roles, others props, unless `is_role` says what they are to be.
 pub(super) fn add(
     workspace: &mut Workspace,
     models: Vec<(PathBuf, String)>,
     sounds: Vec<String>,
     place: DropPlace,
+    is_role: Option<bool>,
 ) -> Option<Effect> {
-    let known: Option<Vec<(String, bool)>> =
-        models.iter().map(|(_, name)| Some((name.clone(), is_figure(workspace, name)?))).collect();
+    let known: Option<Vec<DroppedModel>> =
+        models.iter().map(|(_, name)| known(workspace, name, is_role)).collect();
     match known {
         Some(models) => add_known(workspace, &DroppedModels { models, place, sounds }),
-        None => Some(Effect::LookAtModels(Box::new(UnknownModels { models, place, sounds }))),
+        None => Some(Effect::LookAtModels(Box::new(UnknownModels { models, is_role, place, sounds }))),
     }
 }
 
@@ -43,14 +44,27 @@ pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> O
         DropPlace::Bone(_) | DropPlace::Nowhere => None,
     };
     let places = (0..).map(|beside| points_text(&[first? + f64::from(beside) * DVec3::X]));
-    let thing = |((model, is_figure), place): (&(String, bool), Option<String>)| match (is_figure, place) {
-        (true, Some(place)) => NewThing::RoleAt(model.clone(), place),
-        (true, None) => NewThing::Role(model.clone()),
-        (false, Some(place)) => NewThing::PropAt(model.clone(), place),
-        (false, None) => NewThing::Prop(model.clone()),
+    let thing = |(dropped, at): (&DroppedModel, Option<String>)| {
+        let model = NewModel { file: dropped.name.clone(), at, scale: dropped.scale };
+        if dropped.is_figure { NewThing::Role(model) } else { NewThing::Prop(model) }
     };
     let things: Vec<NewThing> = dropped.models.iter().zip(places).map(thing).collect();
-    add_all(workspace, &things, &dropped.sounds)
+    let effect = add_all(workspace, &things, &dropped.sounds);
+    if effect.is_some() {
+        say_scales(workspace, &dropped.models);
+    }
+    effect
+}
+
+/// Tells which models were made as high as a human.
+fn say_scales(workspace: &mut Workspace, models: &[DroppedModel]) {
+    for model in models.iter().filter(|model| model.scale != 1.0) {
+        let text = format!(
+            "{} is not of human size: its scale is {}, which Attributes can change",
+            model.name, model.scale
+        );
+        workspace.say(MessageSeverity::Info, text);
+    }
 }
 
 /// Adds props that a bone holds, and sounds.
@@ -59,8 +73,9 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
     let at = workspace.read().scene_time();
     let effect = gesture(workspace, ScriptLabel::AddProp, ChangedThings::None, |base| {
         let mut script = Arc::clone(&base.script);
-        for (model, _) in &dropped.models {
-            let (thing, id) = new_thing_splices(&script, &NewThing::Prop(model.clone()))?;
+        for model in &dropped.models {
+            let prop = NewModel { file: model.name.clone(), at: None, scale: model.scale };
+            let (thing, id) = new_thing_splices(&script, &NewThing::Prop(prop))?;
             // The plan of the scene before has the same actions, apart from those that were added here.
             let scene = GestureScene { script: &script, plan: &base.plan };
             let attach = attach_splices(&scene, &id, bone, StageTime::ZERO, None)?;
@@ -80,10 +95,10 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
     effect
 }
 
-/// Returns whether a model that the scene has read has takes or moves a skin; `None` for others.
-fn is_figure(workspace: &Workspace, model: &str) -> Option<bool> {
+/// Returns what is known of a model that the scene has read; `None` for others.
+fn known(workspace: &Workspace, model: &str, is_role: Option<bool>) -> Option<DroppedModel> {
     match workspace.read().scene()?.models.get(model)? {
-        SceneModel::Loaded(loaded) => Some(loaded.is_figure()),
+        SceneModel::Loaded(loaded) => Some(DroppedModel::of(model.to_owned(), loaded, is_role)),
         SceneModel::Loading | SceneModel::Missing(_) => None,
     }
 }

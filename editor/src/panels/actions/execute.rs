@@ -7,7 +7,7 @@ use super::{
     scene, scene_files, scene_time, scope, sets, takes,
 };
 use crate::panels::commands;
-use crate::panels::dropped_files::FileUse;
+use crate::panels::dropped_files::{DropPlace, FileUse};
 use crate::panels::file_choice::FileChoice;
 use crate::panels::keys::KeysRequest;
 use crate::panels::reference::settings::ReferenceSettings;
@@ -129,6 +129,10 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         }
         Request::AddProp(path) => {
             return scene_files::want(workspace, vec![(SceneFileKind::Model, path)], FileUse::Prop);
+        }
+        Request::AddSound(path) => {
+            let used = FileUse::Add(DropPlace::Nowhere);
+            return scene_files::want(workspace, vec![(SceneFileKind::Sound, path)], used);
         }
         Request::CopyFiles(wanted) => return Some(scene_files::copy(workspace, wanted)),
         Request::FileFound(path) => {

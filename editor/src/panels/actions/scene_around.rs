@@ -14,6 +14,9 @@ use dragonfly_picture::{AroundClip, SceneAround, ThroughCamera};
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
 
+/// Duration over which the speed of a take on a way is measured, seconds.
+const MOMENT: f64 = 1.0 / 240.0;
+
 /// Notes the thing whose model is about to be opened, and the scene around it.
 pub(super) fn enter(workspace: &mut Workspace, thing: &str) -> Option<()> {
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
@@ -21,7 +24,7 @@ pub(super) fn enter(workspace: &mut Workspace, thing: &str) -> Option<()> {
     let (thing, time) = (plan.thing_called(thing)?, workspace.read().scene_time());
     let is_free = *workspace.camera.through() == ThroughCamera::Free && workspace.stage.is_framed();
     workspace.entered = Some(EnteredThing {
-        clip: clip_at(workspace.scene.lanes(), &scene, &plan.things()[thing].id, time),
+        clip: clip_at(workspace.scene.lanes(), &scene, thing, time),
         hidden: workspace.scene.hidden().map(Arc::from).collect(),
         camera: is_free.then(|| *workspace.camera.free()),
         scene,
@@ -32,20 +35,21 @@ pub(super) fn enter(workspace: &mut Workspace, thing: &str) -> Option<()> {
 }
 
 /// Returns the take that a thing plays at a time, the one that began last.
-fn clip_at(lanes: &SceneLanes, scene: &SceneView, thing: &str, time: StageTime) -> Option<EnteredClip> {
-    let script = scene.script.as_ref()?;
-    let lane = lanes.list.iter().find(|lane| *lane.name == *thing)?;
-    let bar = lane.bars.iter().rev().find(|bar| bar.clip.is_some() && bar.begin <= time)?;
-    let clip = bar.clip?;
-    let take = script.element(bar.action).value("take")?.to_owned();
-    // After its end, a clip holds its last pose.
-    let since = (time.min(bar.end) - bar.begin).seconds();
-    let once = bar.once.seconds();
-    let within = if once > 0.0 && since > once { since % once } else { since };
-    let speed = clip.speed.to_f64();
-    let [from, to] = clip.part.map(StageTime::seconds);
-    let start = if speed < 0.0 { to } else { from };
-    (speed != 0.0).then_some(EnteredClip { take, after: start + within * speed, speed })
+fn clip_at(lanes: &SceneLanes, scene: &SceneView, thing: usize, time: StageTime) -> Option<EnteredClip> {
+    let (script, plan) = (scene.script.as_ref()?, scene.plan.as_ref()?);
+    let (action, _, after) = plan.take_at(thing, time)?;
+    let take = script.element(action).value("take")?.to_owned();
+    let (_, bar) = lanes.bar_of(action)?;
+    let speed = match bar.clip {
+        Some(clip) => clip.speed.to_f64(),
+        // On a way, the take goes as fast as the feet do: measured over the next moment.
+        None => {
+            let later = plan.take_at(thing, time + StageTime::from_seconds(MOMENT))?.2;
+            let speed = (later - after).seconds() / MOMENT;
+            if speed > 0.0 { speed } else { 1.0 }
+        }
+    };
+    (speed != 0.0).then_some(EnteredClip { take, after: after.seconds(), speed })
 }
 
 /// Shows the take that the thing played in the scene, at the same time of it, and the scene around the model. Without such a thing, nothing is

@@ -95,10 +95,12 @@ fn use_files(workspace: &mut Workspace, wanted: &WantedFiles) -> Option<Effect> 
     match used {
         FileUse::Add(place) => {
             let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
-            added_files::add(workspace, models, named(SceneFileKind::Sound).collect(), place.clone())
+            added_files::add(workspace, models, named(SceneFileKind::Sound).collect(), place.clone(), None)
         }
-        FileUse::Role => add(workspace, &NewThing::Role(named(SceneFileKind::Model).next()?)),
-        FileUse::Prop => add(workspace, &NewThing::Prop(named(SceneFileKind::Model).next()?)),
+        FileUse::Role | FileUse::Prop => {
+            let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
+            added_files::add(workspace, models, Vec::new(), DropPlace::Nowhere, Some(*used == FileUse::Role))
+        }
         FileUse::Find => name_found(workspace, files),
     }
 }

@@ -12,6 +12,8 @@ pub enum When {
     Always,
     /// A model is open.
     Model,
+    /// A model is open, and no scene.
+    OwnModel,
     /// A take is shown, not the rest pose.
     Take,
     /// A take is shown, or a scene is open.
@@ -75,6 +77,7 @@ impl When {
         match self {
             Self::Always => true,
             Self::Model => panels.view.is_some(),
+            Self::OwnModel => panels.view.is_some() && panels.scene().is_none(),
             Self::Take => take,
             Self::Playable => take || panels.scene_bounds().is_some(),
             Self::OtherTakes => take && panels.digest.takes.len() > 1,
@@ -121,6 +124,7 @@ impl When {
         match self {
             Self::Always => "",
             Self::Model => "No model is open",
+            Self::OwnModel => "Only for a model: a scene has its own sounds",
             Self::Take => "No take is shown",
             Self::Playable => "No take is shown, and no scene is open",
             Self::OtherTakes => "The only take of a model cannot be deleted or moved",

@@ -52,7 +52,10 @@ pub(in crate::panels) use gesture_request::move_label;
 pub use left_scene::LeftScene;
 pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;
-pub use new_thing::{NewThing, begin_text, new_thing_splices, with_new_sound, with_new_thing, with_run};
+pub use new_thing::{
+    NewModel, NewThing, begin_text, new_thing_splices, with_new_sound, with_new_thing, with_run,
+};
+pub(in crate::panels) use outliner::thing_menu;
 pub use probe::SceneProbe;
 pub use renamed_things::RenamedThings;
 pub use request::{DraggedTake, LineRequest, SceneRequest, ScriptChange};

@@ -6,17 +6,34 @@ use dragonfly_anim::stage::splice::{ElementPlace, NewElement, TextSplices, inser
 use dragonfly_anim::stage::time::{StageRate, StageTime, parse_time};
 use dragonfly_document::edit::ScriptLabel;
 
+/// A model to add to the cast.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NewModel {
+    /// Its file, relative to the folder of the script.
+    pub file: String,
+    /// Its place as scripts have it; without one, a free place near the origin.
+    pub at: Option<String>,
+    /// Factor from its lengths to meters.
+    pub scale: f64,
+}
+
+impl NewModel {
+    /// Returns the element of a thing with this model.
+    fn element(&self, name: &str, id: &str, at: impl FnOnce() -> String) -> NewElement {
+        let place = self.at.clone().unwrap_or_else(at);
+        let element =
+            NewElement::new(name).with("id", id).with("model", self.file.as_str()).with("at", place);
+        if self.scale == 1.0 { element } else { element.with("scale", self.scale.to_string()) }
+    }
+}
+
 /// A thing to add to the cast.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum NewThing {
-    /// A figure with takes: its model, relative to the folder of the script.
-    Role(String),
-    /// A figure, and its place as scripts have it.
-    RoleAt(String, String),
-    /// An object: its model, relative to the folder of the script.
-    Prop(String),
-    /// An object, and its place as scripts have it.
-    PropAt(String, String),
+    /// A figure with takes.
+    Role(NewModel),
+    /// An object.
+    Prop(NewModel),
     /// A camera in front of the scene.
     Camera,
     /// A sun.
@@ -37,8 +54,8 @@ impl NewThing {
     /// Returns the label of the edit.
     pub fn label(&self) -> ScriptLabel {
         match self {
-            Self::Role(_) | Self::RoleAt(..) => ScriptLabel::AddRole,
-            Self::Prop(_) | Self::PropAt(..) => ScriptLabel::AddProp,
+            Self::Role(_) => ScriptLabel::AddRole,
+            Self::Prop(_) => ScriptLabel::AddProp,
             Self::Camera => ScriptLabel::AddCamera,
             Self::Light => ScriptLabel::AddLight,
             Self::Effect => ScriptLabel::AddEffect,
@@ -51,9 +68,7 @@ impl NewThing {
     /// Returns the text from which its id is made.
     fn id_base(&self) -> &str {
         match self {
-            Self::Role(model) | Self::RoleAt(model, _) | Self::Prop(model) | Self::PropAt(model, _) => {
-                stem(model)
-            }
+            Self::Role(model) | Self::Prop(model) => stem(&model.file),
             Self::Camera => "camera",
             Self::Light => "light",
             Self::Effect => "effect",
@@ -67,18 +82,12 @@ impl NewThing {
     fn element(&self, tree: &ScriptTree, id: &str) -> NewElement {
         let named = |name: &str| NewElement::new(name).with("id", id);
         match self {
-            Self::Role(model) => {
+            Self::Role(model) => model.element("role", id, || {
                 // Next to each other, not inside of each other.
                 let roles = tree.elements().iter().filter(|element| element.row.name == "role").count();
-                named("role").with("model", model.as_str()).with("at", format!("{roles} 0 0"))
-            }
-            Self::RoleAt(model, place) => {
-                named("role").with("model", model.as_str()).with("at", place.as_str())
-            }
-            Self::PropAt(model, place) => {
-                named("prop").with("model", model.as_str()).with("at", place.as_str())
-            }
-            Self::Prop(model) => named("prop").with("model", model.as_str()).with("at", "0 0 0"),
+                format!("{roles} 0 0")
+            }),
+            Self::Prop(model) => model.element("prop", id, || "0 0 0".to_owned()),
             Self::Camera => named("camera").with("at", "0 1.6 6").with("look", "0 1 0").with("lens", "35mm"),
             Self::Light => named("light").with("kind", "sun").with("direction", "-1 -2 -1"),
             Self::Effect => {

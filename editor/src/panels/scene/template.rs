@@ -8,9 +8,10 @@ pub(in crate::panels) const NO_LINES: &str =
 
 /// Returns the script of a scene of two roles opposite each other, with two cameras and a sun. `models` are ids of the project, or files relative to its
 /// folder, `scale` is the factor from their lengths to meters, and `take` is what both play.
-pub fn duel_text(models: [&str; 2], scale: f64, take: Option<&str>) -> String {
+pub fn duel_text(models: [&str; 2], scale: f64, face: &str, take: Option<&str>) -> String {
     let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
     let [first, second] = models.map(escaped);
+    let face = escaped(face);
     let scale = if (scale - 1.0).abs() < 1e-6 { String::new() } else { format!(" scale=\"{scale}\"") };
     let mut actions = String::from(
         "    <shot who=\"wide\" begin=\"0\"/>\n    <shot who=\"close\" begin=\"3\" blend=\"0.5\"/>\n",
@@ -30,8 +31,8 @@ pub fn duel_text(models: [&str; 2], scale: f64, take: Option<&str>) -> String {
          <role   id=\"anna\" model=\"{first}\" at=\"-1 0 0\" facing=\"90\"{scale}/>\n    \
          <role   id=\"ben\" model=\"{second}\" at=\"1 0 0\" facing=\"-90\"{scale}/>\n    \
          <camera id=\"wide\" at=\"0 1.6 5\" look=\"0 1 0\" lens=\"35mm\"/>\n    \
-         <camera id=\"close\" at=\"-2 1.7 2\" look=\"ben\" lens=\"50mm\"/>\n    \
-         <light  id=\"sun\" kind=\"sun\" direction=\"-1 -2 -1\"/>\n  </cast>\n\n  \
+         <camera id=\"close\" at=\"-2 1.7 2\" look=\"{face}\" lens=\"50mm\"/>\n    \
+         <light  id=\"sun\" kind=\"sun\" direction=\"-1 -2 -1\" strength=\"3\"/>\n  </cast>\n\n  \
          <par id=\"scene\">\n{actions}    <wait dur=\"6\"/>\n  </par>\n</script>\n"
     )
 }

@@ -65,6 +65,10 @@ fn welcome(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests: &mut V
         if ui.add_sized(vec2(260.0, 28.0), egui::Button::new("Built-in dragonfly")).clicked() {
             requests.push(Request::Command(Id::OpenBuiltIn));
         }
+        let scene = ui.add_sized(vec2(260.0, 28.0), egui::Button::new("New scene of two built-in figures…"));
+        if scene.on_hover_text(commands::tooltip(ui.ctx(), Id::DemoScene)).clicked() {
+            requests.push(Request::Command(Id::DemoScene));
+        }
         for path in context.settings.recent.iter().take(4) {
             let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
             if ui.link(name).on_hover_text(path.display().to_string()).clicked() {

@@ -17,10 +17,11 @@ use super::scene::SceneRequest;
 use super::style;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, PanelSubject, widgets};
+use dragonfly_document::bones::Choice;
 use dragonfly_picture::ThroughCamera;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, FontId, Pos2, Rect, Response, Sense, Ui, WidgetInfo, pos2};
+use egui::{Color32, FontId, Popup, Pos2, Rect, Response, Sense, SetOpenCommand, Ui, WidgetInfo, pos2};
 use std::borrow::Cow;
 
 /// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::ViewportTools`])
@@ -53,6 +54,7 @@ impl Panel for Viewport {
         overlay::pointer(ui, &response, context, requests);
         if context.scene().is_some() {
             edit_model(&response, context, requests);
+            thing_menu(&response, context, requests);
         } else if context.view.is_some() {
             super::bone_menu::show(&response, context, context.pointed, requests);
         }
@@ -128,6 +130,24 @@ fn edit_model(response: &Response, context: &PanelContext<'_>, requests: &mut Ve
     if planned.is_some_and(|planned| matches!(planned.kind, "role" | "prop")) {
         requests.push(Request::Scene(SceneRequest::EditModel(Box::from(&**thing))));
     }
+}
+
+/// Opens the menu of a thing of the scene where the right button was clicked. A thing there that is not selected is selected first. While the left
+/// button is down, the right one only cancels a drag.
+fn thing_menu(response: &Response, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let open = response.secondary_clicked() && !response.ctx.input(|input| input.pointer.primary_down());
+    let thing = context.stage.hovered().filter(|thing| open && !context.scene_editing.is_selected(thing));
+    if let Some(thing) = thing {
+        let things = vec![Box::from(&**thing)];
+        requests.push(Request::Scene(SceneRequest::SelectThings(things, Choice::Replace)));
+    }
+    let command = match () {
+        () if open => Some(SetOpenCommand::Bool(true)),
+        () if response.clicked() => Some(SetOpenCommand::Bool(false)),
+        () => None,
+    };
+    let menu = Popup::menu(response).open_memory(command).at_pointer_fixed();
+    menu.show(|ui| super::scene::thing_menu(ui, context, requests));
 }
 
 /// Draws a name on one line, with the whole name as tooltip if it is truncated. Returns its lower edge.

@@ -21,7 +21,7 @@ commands! {
     NextTake => When::Model, "Next take", [key(NONE, Key::PageDown)], "Shows the next take", |w| { playback::step_take(w, 1); None };
     RestPose => When::Model, "Rest pose", [key(NONE, Key::Num0)], "Shows the model without animation", |w| { playback::show_take(w, None); None };
     ToggleScrubSounds => When::Always, "Scrub sounds", [], "Plays a short piece of the sounds at each new time while the playhead is dragged (audio)", |w| { w.settings.scrub_sounds ^= true; None };
-    ChooseSound => When::Model, "Sound track…", [], "Shows the waveform of a sound file (WAV, FLAC, Ogg Vorbis) in the timeline; it is not played (audio)", |w| Some(Effect::Choose(FileChoice::Sound, w.read().model_folder()));
+    ChooseSound => When::OwnModel, "Sound track…", [], "Shows the waveform of a sound file (WAV, FLAC, Ogg Vorbis) in the timeline; it is not played (audio)", |w| Some(Effect::Choose(FileChoice::Sound, w.read().model_folder()));
     SoundToPlayhead => When::Sound, "Move sound to playhead", [], "Lets the sound track start at the playhead", |w| { playback::sound_to_playhead(w); None };
     RemoveSound => When::Sound, "Remove sound track", [], "Removes the sound track from the timeline; its file stays", |w| { w.sound.set(SoundSettings::default()); None };
 }

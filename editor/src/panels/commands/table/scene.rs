@@ -10,7 +10,7 @@ use crate::panels::scene::NewThing;
 
 commands! {
     NewScene => When::Always, "New scene of two roles…", [], "Chooses a model, writes a project with a scene of two roles of it next to its file, and opens it (script, movie)", |w| Some(Effect::Choose(FileChoice::NewScene, w.read().model_folder()));
-    DemoScene => When::Always, "New scene with the built-in model…", [], "Chooses a folder, writes the built-in model and a scene with two roles of it there, and opens the scene", |w| Some(Effect::Choose(FileChoice::DemoScene, w.read().model_folder()));
+    DemoScene => When::Always, "New scene of two built-in figures…", [], "Chooses a folder, writes two figures and a scene with them there, and opens the scene", |w| Some(Effect::Choose(FileChoice::DemoScene, w.read().model_folder()));
     ProjectFromScene => When::Scene, "New project from this scene", [], "Writes a project (.meproj) and a file for drawn lines next to the script, and opens the project", scene_lines::project_from_scene;
     AddRole => When::Scene, "Add role…", [], "Adds a figure to the scene: a model whose takes it can play", |w| Some(Effect::Choose(FileChoice::Role, w.read().model_folder()));
     AddProp => When::Scene, "Add prop…", [], "Adds an object to the scene: a model that stands somewhere or is carried", |w| Some(Effect::Choose(FileChoice::Prop, w.read().model_folder()));
@@ -19,6 +19,7 @@ commands! {
     AddEffect => When::Scene, "Add effect", [], "Adds rain to the scene; it is on from the playhead on", |w| scene_text::add(w, &NewThing::Effect);
     AddPath => When::Scene, "Add path", [], "Adds a path that roles can follow", |w| scene_text::add(w, &NewThing::Path);
     AddMark => When::Scene, "Add mark", [], "Adds a place to which roles can go", |w| scene_text::add(w, &NewThing::Mark);
+    AddSceneSound => When::Scene, "Add sound…", [], "Adds a sound to the scene, which begins at the playhead (audio, music)", |w| Some(Effect::Choose(FileChoice::SceneSound, w.read().model_folder()));
     LineAsPath => When::Scene, "Use line as path", [], "Adds a path along the selected line, which roles can follow", scene_lines::use_as_path;
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking; cameras, props, lights and effects can follow it too", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected line of the project", scene_lines::delete;

@@ -229,7 +229,21 @@ pub(super) fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Ve
         item(ui, context, id, false, requests);
     }
     ui.separator();
-    for id in [Id::AddSceneCamera, Id::AddLight, Id::AddEffect, Id::AddPath, Id::AddMark] {
+    for id in [Id::AddSceneCamera, Id::AddLight, Id::AddEffect, Id::AddPath, Id::AddMark, Id::AddSceneSound] {
         item(ui, context, id, false, requests);
+    }
+}
+
+/// Draws the menu of the thing that was selected last, or of new things where none is.
+pub(in crate::panels) fn thing_menu(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let Some(scene) = context.scene() else { return };
+    let script = scene.script.as_ref();
+    let selected = context.scene_editing.things().last().and_then(|id| {
+        let script = script?;
+        Some(&script.tree().elements()[script.thing_element(id)?])
+    });
+    match selected {
+        Some(thing) => row::menu(ui, context, scene, thing, requests),
+        None => submenu(ui, "Add", |ui| entries(ui, context, requests)),
     }
 }

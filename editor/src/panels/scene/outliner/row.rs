@@ -8,13 +8,15 @@ use crate::panels::request::Request;
 use crate::panels::scene::SceneRequest;
 use crate::panels::scene::thing_icon::icon;
 use crate::panels::style::ROW;
+use crate::panels::submenu::entry;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::stage::script::ScriptElement;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{OutdatedEdits, OutdatedEditsChoice, SceneModel, SceneView};
+use dragonfly_picture::ThroughCamera;
 use egui::accesskit::Role;
-use egui::{Rect, Response, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
+use egui::{Rect, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
 /// Width of the button that finds a missing model, points.
 const FIND: f32 = 44.0;
@@ -76,9 +78,10 @@ pub(super) fn show(
         (16.0, editing.is_hidden(id), [Icon::Shown, Icon::Hidden], ["Hide", "Show"]),
     ];
     for (at, (right, is_on, icons, verbs)) in switches.into_iter().enumerate() {
+        // A number alone would be the id of the row's own hint.
         let place = Rect::from_center_size(pos2(rect.right() - right, rect.center().y), vec2(20.0, ROW));
         let over = ui.rect_contains_pointer(rect);
-        let button = ui.interact(place, response.id.with(at), Sense::click());
+        let button = ui.interact(place, response.id.with(("switch", at)), Sense::click());
         let verb = verbs[usize::from(is_on)];
         button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {id}")));
         if is_on || over || button.has_focus() {
@@ -95,7 +98,7 @@ pub(super) fn show(
         }
         button.on_hover_text(format!("{verb} {id}"));
     }
-    menu(&response, context, scene, thing, requests);
+    response.context_menu(|ui| menu(ui, context, scene, thing, requests));
     if response.double_clicked() {
         requests.push(match kind {
             "role" | "prop" => Request::Scene(SceneRequest::EditModel(id.into())),
@@ -162,51 +165,59 @@ fn outdated<'a>(thing: &ScriptElement, scene: &'a SceneView) -> Option<&'a Outda
     scene.outdated.iter().find(|edits| project.model_id(&edits.model) == Some(id))
 }
 
-fn menu(
-    response: &Response,
+/// Draws the entries for a thing.
+pub(super) fn menu(
+    ui: &mut Ui,
     context: &PanelContext<'_>,
     scene: &SceneView,
     thing: &ScriptElement,
     requests: &mut Vec<Request>,
 ) {
     let (kind, id) = (thing.row.name, thing.value("id").unwrap_or_default());
-    response.context_menu(|ui| {
-        if let Some(find) = find_request(thing, scene)
-            && ui.add(egui::Button::new("Find the model…").frame_when_inactive(false)).clicked()
-        {
-            requests.push(find);
-            ui.close();
-        }
-        if let Some(edits) = outdated(thing, scene) {
-            for (title, choice) in SETTLED {
-                if ui.add(egui::Button::new(title).frame_when_inactive(false)).clicked() {
-                    requests.push(Request::Scene(SceneRequest::Settle(edits.clone(), choice)));
-                    ui.close();
-                }
+    if let Some(find) = find_request(thing, scene)
+        && entry(ui, "Find the model…").clicked()
+    {
+        requests.push(find);
+        ui.close();
+    }
+    if let Some(edits) = outdated(thing, scene) {
+        for (title, choice) in SETTLED {
+            if entry(ui, title).clicked() {
+                requests.push(Request::Scene(SceneRequest::Settle(edits.clone(), choice)));
+                ui.close();
             }
-            ui.separator();
-        }
-        if matches!(kind, "role" | "prop")
-            && ui.add(egui::Button::new("Edit takes and bones").frame_when_inactive(false)).clicked()
-        {
-            requests.push(Request::Scene(SceneRequest::EditModel(id.into())));
-            ui.close();
-        }
-        if kind == "camera" {
-            item(ui, context, Id::CutToCamera, false, requests);
-            item(ui, context, Id::PickFocus, false, requests);
-        }
-        if matches!(kind, "role" | "prop" | "camera" | "light" | "effect") {
-            item(ui, context, Id::AttachHere, false, requests);
-            item(ui, context, Id::DetachHere, false, requests);
-        }
-        if matches!(kind, "role" | "prop" | "camera" | "light" | "effect" | "path") {
-            item(ui, context, Id::WalkAlong, false, requests);
-        }
-        for id in [Id::SceneRename, Id::SceneDuplicate, Id::SceneDelete] {
-            item(ui, context, id, false, requests);
         }
         ui.separator();
-        submenu(ui, "Add", |ui| super::entries(ui, context, requests));
-    });
+    }
+    if matches!(kind, "role" | "prop") && entry(ui, "Edit takes and bones").clicked() {
+        requests.push(Request::Scene(SceneRequest::EditModel(id.into())));
+        ui.close();
+    }
+    if kind == "camera" {
+        if entry(ui, "Look through it").clicked() {
+            requests.push(Request::Scene(SceneRequest::Through(ThroughCamera::Of(id.into()))));
+            ui.close();
+        }
+        item(ui, context, Id::CutToCamera, false, requests);
+        item(ui, context, Id::PickFocus, false, requests);
+    }
+    if matches!(kind, "role" | "prop" | "camera" | "light" | "effect") {
+        item(ui, context, Id::DetachHere, false, requests);
+    }
+    if matches!(kind, "role" | "prop" | "camera" | "light" | "effect" | "path") {
+        item(ui, context, Id::WalkAlong, false, requests);
+    }
+    if matches!(kind, "role" | "prop" | "mark") {
+        item(ui, context, Id::DropToGround, false, requests);
+    }
+    ui.separator();
+    for id in [Id::FrameSelected, Id::HideThings, Id::HideOtherThings, Id::LockThings] {
+        item(ui, context, id, false, requests);
+    }
+    ui.separator();
+    for id in [Id::SceneRename, Id::SceneDuplicate, Id::SceneDelete] {
+        item(ui, context, id, false, requests);
+    }
+    ui.separator();
+    submenu(ui, "Add", |ui| super::entries(ui, context, requests));
 }

@@ -132,3 +132,15 @@ pub(super) fn scroll_to(ui: &Ui, sheet: &MarginSheet<'_>, range: &Range<usize>) 
         ui.scroll_to_rect(rect, Some(Align::Center));
     }
 }
+
+/// Scrolls sideways, as little as is needed, until the caret is beside the line numbers, which cover `width` points of the text.
+pub(super) fn show_caret(ui: &Ui, caret: Rect, width: f32) {
+    let clip = ui.clip_rect();
+    // At the start of a line, the line is shown from its start.
+    if caret.left() - width < clip.left() || caret.right() > clip.right() {
+        ui.scroll_to_rect(
+            caret.with_min_x(caret.left() - width - 12.0).with_max_x(caret.right() + 24.0),
+            None,
+        );
+    }
+}

@@ -19,7 +19,7 @@ use crate::panels::commands::Id as CommandId;
 use coloring::ScriptLayout;
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::TextSplice;
-use dragonfly_anim::stage::table::ElementGroup;
+use dragonfly_anim::stage::table::{ElementGroup, PROJECTS, SCRIPTS};
 use dragonfly_anim::stage::writing::{CompletionNames, completions};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
@@ -27,7 +27,8 @@ use dragonfly_document::{Change, SceneView};
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
-    CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer, TextEdit, Ui, pos2,
+    CornerRadius, EventFilter, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer, TextEdit, Ui,
+    pos2,
 };
 use error_list::ListClick;
 use lines::{byte_of, characters_before, lines_of, moved_position};
@@ -57,6 +58,8 @@ pub struct ScriptPanel {
     jump: Option<usize>,
     /// Height of the text in the last frame.
     height: f32,
+    /// The caret in the last frame.
+    caret: Option<CCursor>,
     /// The text that is shown.
     shown: ShownText,
 }
@@ -207,7 +210,13 @@ impl ScriptPanel {
                 let field = TextEdit::multiline(&mut self.buffer)
                     .id(id)
                     .frame(Frame::NONE.inner_margin(Margin { left: 6, right: 12, top: 4, bottom: 12 }))
-                    .lock_focus(true)
+                    .event_filter(EventFilter {
+                        tab: true,
+                        horizontal_arrows: true,
+                        vertical_arrows: true,
+                        // It closes the suggestions, and only then leaves the text.
+                        escape: self.suggestions.shown().is_some(),
+                    })
                     .desired_width(room)
                     .desired_rows(1)
                     .layouter(&mut layouter);
@@ -222,9 +231,15 @@ impl ScriptPanel {
                 if let Some(range) = &follows {
                     margin::scroll_to(ui, &sheet, range);
                 }
+                let moved = output.cursor_range.map(|range| range.primary) != self.caret;
+                self.caret = output.cursor_range.map(|range| range.primary);
                 if let (true, Some(range)) = (is_smaller, output.cursor_range) {
                     let at = byte_of(text, range.primary.index.0);
                     margin::scroll_to(ui, &sheet, &(at..at));
+                }
+                if let (true, true, Some(range)) = (has_focus, moved, output.cursor_range) {
+                    let caret = output.galley.pos_from_cursor(range.primary);
+                    margin::show_caret(ui, caret.translate(output.galley_pos.to_vec2()), width);
                 }
                 output
             })
@@ -312,20 +327,20 @@ impl ScriptPanel {
     }
 
     fn suggest(&mut self, scene: &SceneView, at: usize, asked: bool) {
-        // Only words of scripts can be completed.
-        if self.shown == ShownText::Project {
-            return self.suggestions.set(None);
-        }
+        let is_project = self.shown == ShownText::Project;
         let models: Vec<&str> = scene.models.keys().map(String::as_str).collect();
         let lines = scene.lines.as_ref().map_or(&[][..], |lines| lines.list());
         let lines: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
         let played = scene.plan.iter().flat_map(|plan| plan.sounds());
         let sounds: BTreeSet<&str> = played.map(|sound| &*sound.source).collect();
         let sounds = Vec::from_iter(sounds);
-        let scripts = script_names(scene);
+        let scripts = if is_project { scripts_of_project(scene) } else { script_names(scene) };
         let scripts: Vec<&str> = scripts.iter().map(String::as_str).collect();
         let (plan, project) = (scene.plan.as_deref(), scene.project.as_deref());
+        // The project's own text has its things.
+        let project = project.filter(|_| !is_project);
         let names = CompletionNames {
+            vocabulary: if is_project { &PROJECTS } else { &SCRIPTS },
             plan,
             project,
             models: &models,
@@ -406,6 +421,11 @@ fn selected_range(scene: &SceneView, context: &PanelContext<'_>, shown: ShownTex
         Some(project) => Some(project.tree().elements()[project.element_of(element)?].range.clone()),
         None => script.tree().range_in_text(element),
     }
+}
+
+/// Returns the scripts of the project, relative to its folder.
+fn scripts_of_project(scene: &SceneView) -> BTreeSet<String> {
+    scene.project.iter().flat_map(|project| project.scripts()).map(str::to_owned).collect()
 }
 
 /// Returns the files that the script may include, as it would write them: the other scripts of its project, those that it includes, and

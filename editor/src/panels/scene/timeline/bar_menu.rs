@@ -6,6 +6,7 @@ use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
 use crate::panels::scene::{ChangedThings, SceneRequest};
+use crate::panels::submenu::entry;
 use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed, wait_after};
 use dragonfly_anim::stage::script::StageRepeat;
 use dragonfly_anim::stage::table::element;
@@ -29,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
     let things = ChangedThings::Actions(&own);
     let has = |name: &str| row.is_some_and(|row| row.attribute(name).is_some());
     if let Some(missing) = missing_sound(action, sheet)
-        && ui.add(egui::Button::new("Find the sound…").frame_when_inactive(false)).clicked()
+        && entry(ui, "Find the sound…").clicked()
     {
         requests.push(Request::Scene(SceneRequest::Find(missing)));
         ui.close();

@@ -6,8 +6,8 @@ use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::request::Request;
-use crate::panels::scene::SceneRequest;
 use crate::panels::scene::thing_icon::icon;
+use crate::panels::scene::{SceneRequest, thing_menu};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_document::bones::Choice;
@@ -51,6 +51,13 @@ pub(super) fn show(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Reque
             let choice =
                 if ui.input(|input| input.modifiers.command) { Choice::Toggle } else { Choice::Replace };
             requests.push(Request::Scene(SceneRequest::SelectThings(vec![lane.name.clone()], choice)));
+        }
+        if is_thing {
+            if response.secondary_clicked() && !is_selected {
+                let things = vec![lane.name.clone()];
+                requests.push(Request::Scene(SceneRequest::SelectThings(things, Choice::Replace)));
+            }
+            response.context_menu(|ui| thing_menu(ui, sheet.context, requests));
         }
         if response.double_clicked() && matches!(lane.kind, "role" | "prop") {
             requests.push(Request::Scene(SceneRequest::EditModel(lane.name.clone())));

@@ -15,6 +15,8 @@ const GAP: f32 = 1.0;
 /// Width of the ends of a bar by which it is trimmed, and the least width of a bar that has them.
 const GRIP: f32 = 6.0;
 const LEAST_WITH_GRIPS: f32 = 20.0;
+/// Distance of the handle of a fade from the end of the fade, so that it is beside the end of the bar by which that is trimmed.
+const FADE_INSET: f32 = 12.0;
 /// Distance from the handle of a fade, and the part of a bar's height in which it is.
 const FADE: f32 = 6.0;
 const FADE_HEIGHT: f32 = 9.0;
@@ -178,9 +180,17 @@ pub(super) fn fade_handles(
     let row = dragonfly_anim::stage::table::element(bar.kind);
     let has = |name: &str| row.is_some_and(|row| row.attribute(name).is_some());
     let width = |seconds: f64| (seconds * scale.per_second()) as f32;
-    let fade_in = (has("fade-in") || has("blend"))
-        .then(|| (SceneBarPart::FadeIn, (rect.left() + width(bar.fade_in.seconds())).min(rect.right())));
-    let fade_out = has("fade-out")
-        .then(|| (SceneBarPart::FadeOut, (rect.right() - width(bar.fade_out.seconds())).max(rect.left())));
+    let fade_in = (has("fade-in") || has("blend")).then(|| {
+        (
+            SceneBarPart::FadeIn,
+            (rect.left() + width(bar.fade_in.seconds()) + FADE_INSET).min(rect.right() - FADE_INSET),
+        )
+    });
+    let fade_out = has("fade-out").then(|| {
+        (
+            SceneBarPart::FadeOut,
+            (rect.right() - width(bar.fade_out.seconds()) - FADE_INSET).max(rect.left() + FADE_INSET),
+        )
+    });
     [fade_in, fade_out]
 }
