@@ -1,11 +1,12 @@
 //! A project or a script that is saved in another folder takes along what it needs, and nothing that is there is overwritten.
 
 use super::projects::{END, LINES, MAIN, PROJECT, is_read, project, replaced_in};
+use super::save_in_background::{HeldSave, document, restored};
 use super::scenes::{replaced, scene_of};
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{
-    Cancel, DocumentMessage, DocumentReply, Editable, NotSaved, SaveOrder, SaveTo, SceneModel, Source,
-    check_scene,
+    Cancel, DocumentMessage, DocumentReply, Editable, FaultPoint, NotSaved, SaveOrder, SaveTo, SceneModel,
+    Source, check_scene,
 };
 use dragonfly_kit::document::test_document::TestDocument;
 use dragonfly_kit::folder::Folder;
@@ -275,4 +276,166 @@ fn a_session_that_saves_in_another_folder_takes_the_same_files_along() {
     assert_eq!(save()["ok"]["written"], json!([other.join("copy.meproj")]));
     fs::write(other.join("models/Fox.glb"), "another").expect("a file");
     assert!(save()["error"].as_str().is_some_and(|reason| reason.contains("models/Fox.glb")));
+}
+
+/// Saves in place of a file that is there.
+fn saved_over(document: &mut TestDocument, to: SaveTo) {
+    document.send(DocumentMessage::Save(SaveOrder { to, anyway: true, ..SaveOrder::own(None) }));
+    document.wait_for_reply(|reply| match reply {
+        DocumentReply::Saved(_) => Some(()),
+        DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
+        _ => None,
+    });
+}
+
+#[test]
+fn errors_of_a_text_are_not_counted_among_the_files_that_were_not_copied() {
+    let folder = Folder::new("moved-errors");
+    let path = whole_project(&folder);
+    fs::remove_file(folder.join("own/models/Fox.glb")).expect("a file");
+    let main = fs::read_to_string(folder.join("own/main.xml")).expect("a file");
+    let wrong: String = (0..8).map(|_| "<play who=\"nobody\" take=\"Run\"/>\n").collect();
+    fs::write(folder.join("own/main.xml"), main.replace("</script>", &format!("{wrong}</script>")))
+        .expect("a file");
+    let other = Folder::new("moved-errors-there");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    let notices = document.save(SaveTo::As(other.join("foxes.meproj"))).notices;
+    assert_eq!(notices[0], "models/Fox.glb does not exist; it was not copied");
+    assert!(notices[1..6].iter().all(|notice| notice.starts_with("main.xml:")), "{notices:#?}");
+    assert_eq!(
+        notices[6..],
+        ["files that are needed may not be known because of these errors and 3 more".to_owned()]
+    );
+}
+
+#[test]
+fn a_second_copy_replaces_the_files_of_the_first_one_unless_another_program_changed_them() {
+    let folder = Folder::new("moved-twice");
+    let path = whole_project(&folder);
+    let other = Folder::new("moved-twice-there");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    document.wait_for_view(is_read);
+    let target = || SaveTo::Copy(other.join("foxes.meproj"));
+    document.save(target());
+    document.edit(replaced_in("end.xml", END, "The End", "Fin"));
+    let fox = fs::read(folder.join("own/models/Fox.glb")).expect("a file");
+    fs::write(folder.join("own/models/Fox.glb"), [&fox[..], b"more"].concat()).expect("a file");
+    saved_over(&mut document, target());
+    let fin = END.replace("The End", "Fin");
+    assert_eq!(fs::read_to_string(other.join("end.xml")).expect("a file"), fin);
+    assert_eq!(fs::read(other.join("models/Fox.glb")).expect("a file").len(), fox.len() + 4);
+    // Another name in the same folder, after another edit.
+    document.edit(replaced_in("end.xml", &fin, "Fin", "Ende"));
+    document.save(SaveTo::Copy(other.join("again.meproj")));
+    assert!(fs::read_to_string(other.join("end.xml")).expect("a file").contains("Ende"));
+    // Another program changes one of them.
+    fs::write(other.join("end.xml"), "of another program").expect("a file");
+    document.edit(replaced_in("end.xml", &fin.replace("Fin", "Ende"), "Ende", "Out"));
+    let reason = not_saved(&mut document, target());
+    assert!(reason.contains("end.xml"), "{reason}");
+    assert_eq!(fs::read_to_string(other.join("end.xml")).expect("a file"), "of another program");
+}
+
+#[test]
+fn a_scene_is_not_saved_in_place_of_a_script_that_it_includes() {
+    let folder = Folder::new("moved-include");
+    whole_project(&folder);
+    let path = folder.join("own/scene.xml");
+    fs::write(&path, "<script version=\"1\"><include src=\"more.xml\"/></script>").expect("a file");
+    let more = "<script version=\"1\"><wait dur=\"1\"/></script>";
+    let other = Folder::new("moved-include-there");
+    for place in [folder.join("own/more.xml"), other.join("more.xml")] {
+        fs::write(&place, more).expect("a file");
+    }
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    for place in [other.join("more.xml"), folder.join("own/more.xml")] {
+        for to in [SaveTo::As(place.clone()), SaveTo::Copy(place.clone())] {
+            let reason = not_saved(&mut document, to);
+            assert!(reason.contains("more.xml") && reason.contains("another name"), "{reason}");
+        }
+        assert_eq!(fs::read_to_string(&place).expect("a file"), more);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_whose_links_lead_elsewhere_gets_no_copies_through_them() {
+    let folder = Folder::new("moved-link");
+    let path = whole_project(&folder);
+    let (other, outside) = (Folder::new("moved-link-there"), Folder::new("moved-link-outside"));
+    std::os::unix::fs::symlink(outside.path(), other.join("models")).expect("a link");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    let reason = not_saved(&mut document, SaveTo::As(other.join("foxes.meproj")));
+    assert!(reason.contains("models") && reason.contains("leads out of the folder"), "{reason}");
+    assert!(files(outside.path()).is_empty());
+    assert!(!other.join("foxes.meproj").exists());
+}
+
+#[test]
+fn copying_is_cancelled_between_two_files_and_can_be_done_again() {
+    for at in [FaultPoint::PrepareSave, FaultPoint::WriteSave] {
+        let folder = Folder::new(&format!("moved-cancel-{at:?}"));
+        let (path, held) = (whole_project(&folder), HeldSave::at(at));
+        let other = Folder::new(&format!("moved-cancel-there-{at:?}"));
+        let mut document = document(&folder.join("autosave"), &held);
+        document.open(&path);
+        let target = || SaveTo::As(other.join("foxes.meproj"));
+        held.hold_save(&document, target());
+        document.wait_for_reply(|reply| matches!(reply, DocumentReply::Loading { .. }).then_some(()));
+        // The program is about to end, which waits for the end of the save.
+        document.send(DocumentMessage::Quit);
+        document.send(DocumentMessage::CancelLoading);
+        document.wait_for_warning("stops after the file");
+        held.release();
+        let reason = document.wait_for_reply(|reply| match reply {
+            DocumentReply::NotSaved(_, NotSaved::Failed(reason)) => Some(reason.clone()),
+            DocumentReply::Saved(saved) => panic!("{saved:?}"),
+            _ => None,
+        });
+        assert!(reason.contains("cancelled"), "{reason}");
+        assert!(files(other.path()).is_empty());
+        assert_eq!(document.view().file.path.as_deref(), Some(&*path));
+        assert_eq!(document.save(target()).beside, NEEDED.len());
+    }
+}
+
+#[test]
+fn a_document_that_ends_stops_copying_and_its_unsaved_work_is_offered() {
+    let folder = Folder::new("moved-end");
+    let (path, held) = (whole_project(&folder), HeldSave::at(FaultPoint::PrepareSave));
+    let other = Folder::new("moved-end-there");
+    let mut document = document(&folder.join("autosave"), &held);
+    document.open(&path);
+    document.edit(replaced_in("end.xml", END, "The End", "Fin"));
+    document.wait_for_view(|view| view.history.done == 1);
+    held.hold_save(&document, SaveTo::As(other.join("foxes.meproj")));
+    document.stop();
+    held.release();
+    document.end();
+    assert!(files(other.path()).is_empty());
+    assert_eq!(restored(&folder.join("autosave"), &path).0, 1);
+}
+
+#[test]
+fn a_text_that_changes_between_the_comparison_and_the_save_is_not_taken_for_the_own_one() {
+    let folder = Folder::new("moved-between");
+    let (path, held) = (whole_project(&folder), HeldSave::at(FaultPoint::WriteSave));
+    let other = Folder::new("moved-between-there");
+    fs::write(other.join("end.xml"), END).expect("a file");
+    let mut document = document(&folder.join("autosave"), &held);
+    document.open(&path);
+    held.hold_save(&document, SaveTo::As(other.join("foxes.meproj")));
+    fs::write(other.join("end.xml"), END.replace("The End", "The Ent")).expect("a file");
+    held.release();
+    let reason = document.wait_for_reply(|reply| match reply {
+        DocumentReply::NotSaved(_, NotSaved::Failed(reason)) => Some(reason.clone()),
+        DocumentReply::Saved(saved) => panic!("{saved:?}"),
+        _ => None,
+    });
+    assert!(reason.contains("end.xml") && reason.contains("not the one that is needed"), "{reason}");
+    assert!(!other.join("foxes.meproj").exists());
 }

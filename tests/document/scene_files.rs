@@ -1,11 +1,14 @@
 //! Files from outside of the folder of a scene are copied into it, and missing ones are named where they are found.
 
 use super::projects::{MAIN, PROJECT, is_read, project, text_of};
+use super::save_and_open::open;
 use super::scenes::{replaced, scene_of};
-use dragonfly_document::edit::EditScript;
+use dragonfly_anim::stage::project::StageProject;
+use dragonfly_document::edit::{EditScript, ScriptLabel};
+use dragonfly_document::history::Edited;
 use dragonfly_document::{
     Cancel, Change, FoundFiles, MissingFile, SceneFile, SceneFileKind, SceneFiles, SceneModel, View,
-    name_found_files,
+    listed_models, name_found_files,
 };
 use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::{Folder, data};
@@ -187,6 +190,8 @@ fn a_file_that_only_an_included_script_names_is_not_changed_and_that_script_is_n
     let view = document.wait_for_view(|view| scene_of(view).missing_models().count() == 1);
     let error = found(&view, &[("gone.glb", "Fox.glb")]).expect_err("it is no text of the document");
     assert_eq!(error, "gone.glb is named in parts.xml: open it to change it");
+    let missing = scene_of(&view).missing_model("gone.glb");
+    assert_eq!(scene_of(&view).included_place_of(&missing), Some("parts.xml"));
     document.edit(replaced(&scene_of(&view).text.clone(), "<include", "<wait dur=\"1\"/><include"));
     document.wait_for_view(|view| view.history.done == 1);
 }
@@ -219,4 +224,49 @@ fn other_missing_files_are_found_next_to_the_first_one_but_not_the_one_that_is_n
         ["a"],
         "the damaged one is not found in its own place"
     );
+}
+
+#[test]
+fn models_of_a_scene_have_the_hashes_of_their_files_and_a_project_lists_them_once() {
+    let (scene, other) = (Folder::new("files-hash"), Folder::new("files-hash-other"));
+    fs::copy(data("gltf/Fox.glb"), scene.join("in.glb")).expect("a copy");
+    let out = write_box(&other.join("a"), 1.0);
+    let wanted = [(SceneFileKind::Model, scene.join("in.glb")), (SceneFileKind::Model, out.clone())];
+    let mut files = looked(scene.path(), &wanted).expect("they can be read");
+    files.copy(&Cancel::default()).expect("copies");
+    let hash = |path: &Path| dragonfly_store::hash(&fs::read(path).expect("a file"));
+    let [fox, crate_] = [hash(&scene.join("in.glb")), hash(&out)];
+    let known: Vec<(Option<u64>, usize)> = files.files.iter().map(|file| (file.hash, file.written)).collect();
+    assert_eq!(known, [(Some(fox), 0), (Some(crate_), 2)]);
+    // The project has one of them without a hash.
+    let models = [("models/Fox.glb", fox), ("models/box.gltf", crate_)];
+    let path = project(&other);
+    let mut edited = Edited::new(open(&path).adapter());
+    let read = |text: &str| StageProject::read(text).expect("a project");
+    let edit = listed_models(&read(PROJECT), models, ScriptLabel::AddRole).expect("an edit");
+    edited.apply(edit.into(), None).expect("it fits");
+    let text = edited.adapter().texts().list()[0].text.clone();
+    assert!(
+        text.contains(&format!("<model id=\"fox\" src=\"models/Fox.glb\" hash=\"{fox:016x}\"/>")),
+        "{text}"
+    );
+    let new = format!("<model id=\"box\" src=\"models/box.gltf\" hash=\"{crate_:016x}\"/>");
+    assert_eq!(text.matches(&new).count(), 1, "{text}");
+    // A hash that is stated stays: the model may have changed since.
+    let changed = models.map(|(file, hash)| (file, hash + 1));
+    assert_eq!(listed_models(&read(&text), changed, ScriptLabel::AddRole), None);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_out_of_the_folder_of_a_scene_gets_no_copies() {
+    let (scene, other) = (Folder::new("files-link-out"), Folder::new("files-link-out-other"));
+    fs::copy(data("gltf/Fox.glb"), other.join("knight.glb")).expect("a copy");
+    fs::create_dir(other.join("outside")).expect("a folder");
+    std::os::unix::fs::symlink(other.join("outside"), scene.join("models")).expect("a link");
+    let wanted = [(SceneFileKind::Model, other.join("knight.glb"))];
+    let mut files = looked(scene.path(), &wanted).expect("it can be read");
+    let reason = files.copy(&Cancel::default()).expect_err("a link");
+    assert!(reason.contains("leads out of the folder"), "{reason}");
+    assert_eq!(fs::read_dir(other.join("outside")).expect("a folder").count(), 0);
 }

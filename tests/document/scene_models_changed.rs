@@ -177,3 +177,47 @@ fn a_client_applies_or_removes_the_edits_of_changed_models_in_one_step() {
     let errors = ask(json!({"query": "errors"}));
     assert_eq!(errors["ok"]["edits"].as_array().map(Vec::len), Some(2), "{errors}");
 }
+
+/// Waits until no warning about edits that do not fit is left; returns whether there was one.
+fn warned(document: &mut TestDocument) -> bool {
+    document.view();
+    document.has_reply(|reply| matches!(reply, DocumentReply::Warning(text) if text.contains("do not fit")))
+}
+
+#[test]
+fn edits_of_several_models_that_do_not_fit_are_one_warning_that_is_not_repeated() {
+    let folder = Folder::new("changed-misfits");
+    let path = changed(&folder);
+    fs::write(folder.join("foxes.edits/fox.jsonl"), EDITS.concat()).expect("a file");
+    // The script means one of them by its file, too.
+    let by_file = "<role id=\"twin\" model=\"models/vixen.glb\" scale=\"0.01\"/>\n  </cast>";
+    let main = fs::read_to_string(folder.join("main.xml")).expect("a file");
+    fs::write(folder.join("main.xml"), main.replace("</cast>", by_file)).expect("a file");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    let edits = asked(&mut document);
+    document.send(DocumentMessage::DecideAllOutdated(edits.clone(), OutdatedEditsChoice::Apply));
+    let warning = document.wait_for_warning("do not fit");
+    assert!(warning.starts_with("Edits of models/Fox.glb, models/vixen.glb do not fit them: "), "{warning}");
+    assert_eq!(warning.matches("there is no take \"Dance\"").count(), 2, "{warning}");
+    // Neither a second decision nor another look repeats it.
+    document.send(DocumentMessage::DecideAllOutdated(edits, OutdatedEditsChoice::Apply));
+    document.send(DocumentMessage::LookAtFile);
+    document.wait_for_view(is_read);
+    assert!(!warned(&mut document));
+}
+
+#[test]
+fn edits_that_do_not_fit_a_model_that_is_opened_are_one_warning() {
+    let folder = Folder::new("changed-misfit-once");
+    let path = changed(&folder);
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    let vixen = asked(&mut document).remove(1);
+    document.wait_for_view(is_read);
+    document.send(DocumentMessage::DecideOutdated(vixen, OutdatedEditsChoice::Apply));
+    document.wait_for_warning("do not fit it, and are removed from the project");
+    document.send(DocumentMessage::ShowScene);
+    document.wait_for_view(|view| view.scene.is_some() && is_read(view));
+    assert!(!warned(&mut document));
+}

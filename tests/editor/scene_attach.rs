@@ -1,6 +1,6 @@
 //! Things attached to bones: by the pointer, by a file that is dropped, moved where they are held, detached.
 
-use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::scene_bench::{FOXES, looked, new_lines, scene, text};
 use crate::scene_lines::{at, run, send};
 use crate::workbench::Window;
 use dragonfly::control::{InputEvent, Key};
@@ -19,7 +19,8 @@ use std::path::PathBuf;
 const FLANK: DVec3 = DVec3::new(-1.0, 0.45, 0.0);
 
 fn execute(window: &mut Window, request: Request) -> Option<Effect> {
-    match window.state_mut().state.execute(request) {
+    let effect = window.state_mut().state.execute(request);
+    match looked(window, effect) {
         Some(Effect::Change(change)) => {
             window.state_mut().change(change);
             window.run_steps(2);
@@ -94,10 +95,11 @@ fn a_model_dropped_beside_bones_stands_there_as_a_figure_or_an_object() {
     let effect = drop_at(&mut window, DVec3::new(0.0, 0.0, 1.5), "/scenes/table.glb");
     let Some(Effect::LookAtModels(unknown)) = effect else { panic!("{effect:?}") };
     assert_eq!(text(&window), FOXES);
-    let DropPlace::At(place) = unknown.place else { panic!("{unknown:?}") };
+    let DropPlace::At(place) = unknown.place.clone() else { panic!("{unknown:?}") };
     assert!(place.distance(DVec3::new(0.0, 0.0, 1.5)) < 0.02, "{place}");
     let models = vec![DroppedModel { name: "table.glb".to_owned(), is_figure: false, scale: 1.0 }];
-    let dropped = DroppedModels { models, place: unknown.place.clone(), sounds: Vec::new() };
+    let (place, target) = (unknown.place.clone(), unknown.target.clone());
+    let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
     execute(&mut window, Request::DroppedModels(Box::new(dropped)));
     let new = new_lines(FOXES, &text(&window));
     assert!(new.len() == 1 && new[0].starts_with(r#"<prop id="table" model="table.glb" at="0"#), "{new:?}");

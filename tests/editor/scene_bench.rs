@@ -1,6 +1,7 @@
 //! A scene in the user interface without a real window: two foxes, two cameras, a script.
 
 use crate::workbench::{Window, Workbench};
+use dragonfly::panels::Effect;
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::stage::line::DrawnLines;
 use dragonfly_anim::stage::project::StageProject;
@@ -163,6 +164,21 @@ fn open_without(texts: TextFiles, missing: &[&str]) -> Workbench {
     bench.edited = Some(Edited::new(adapter));
     bench.stage = Some(stage);
     bench
+}
+
+/// Answers a job that looks at files, for a folder that is not on the disk: files below it are in it. Returns the effect that follows; the same one
+/// where a file is elsewhere.
+pub(crate) fn looked(window: &mut Window, effect: Option<Effect>) -> Option<Effect> {
+    let Some(Effect::LookAtFiles(mut wanted)) = effect else { return effect };
+    let folder = wanted.files.folder.clone();
+    for file in &mut wanted.files.files {
+        let name = file.path.strip_prefix(&folder);
+        file.name = name.ok().map(|name| name.to_string_lossy().into_owned());
+    }
+    if !wanted.files.are_inside() {
+        return Some(Effect::LookAtFiles(wanted));
+    }
+    window.state_mut().state.files_answered(wanted, 0)
 }
 
 /// Returns the text of the script in the document.

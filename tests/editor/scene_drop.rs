@@ -1,6 +1,6 @@
 //! Files dropped onto the window while a scene is open.
 
-use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::scene_bench::{FOXES, looked, new_lines, scene, text};
 use crate::workbench::Window;
 use dragonfly::panels::request::FileAction;
 use dragonfly::panels::scene::{NewThing, with_new_thing};
@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 /// Drops files, and gives the change that follows to the document. Returns what else follows.
 fn drop_files(window: &mut Window, files: &[&str]) -> Option<Effect> {
     let files = files.iter().map(PathBuf::from).collect();
-    let effect = match window.state_mut().state.execute(Request::Dropped(files)) {
+    let effect = window.state_mut().state.execute(Request::Dropped(files));
+    let effect = match looked(window, effect) {
         Some(Effect::Change(change)) => {
             window.state_mut().change(change);
             None
@@ -77,6 +78,7 @@ fn a_sound_from_the_folder_of_the_scene_begins_at_the_playhead_and_is_added_in_o
     // By its path it is opened like that, too.
     let open = Request::Open(Source::File("/scenes/rain.ogg".into()));
     let effect = window.state_mut().state.execute(open);
+    let effect = looked(&mut window, effect);
     assert!(matches!(effect, Some(Effect::Change(_))), "{effect:?}");
     window.state_mut().change(Change::Undo);
     window.run_steps(2);

@@ -1,18 +1,20 @@
 //! Files for the scene from anywhere: those outside are copied if the user agrees, and missing ones are found.
 
-use crate::scene_bench::{FOXES, new_lines, scene, scene_without, text};
+use crate::scene_bench::{FOXES, named_text, new_lines, project, scene, scene_without, text};
 use crate::scene_sounds::{forwarding, move_to, thunder};
 use crate::workbench::{Window, Workbench};
 use dragonfly::app::scene_files::{self, SceneFilesAnswer};
 use dragonfly::panels::dialogs::Question;
-use dragonfly::panels::dropped_files::WantedFiles;
+use dragonfly::panels::dropped_files::{DropPlace, DroppedModels, WantedFiles};
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, FileChoice, Request};
+use dragonfly_anim::stage::script::{IncludedScripts, ScriptContext, StageScript};
 use dragonfly_document::{
-    Change, DocumentMessage, OutdatedEdits, OutdatedEditsChoice, SceneFileKind, SceneView, View,
+    Change, DocumentMessage, LoadedModel, OutdatedEdits, OutdatedEditsChoice, SavedFile, SceneFileKind,
+    SceneView, View,
 };
 use dragonfly_kit::folder::{Folder, data};
-use dragonfly_runtime::Address;
+use dragonfly_runtime::{Address, Job};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 use std::fs;
@@ -22,11 +24,11 @@ use std::time::Duration;
 
 /// Carries a job out, and returns its answer.
 fn done(
-    start: fn(Box<WantedFiles>, &Address<SceneFilesAnswer>) -> std::io::Result<()>,
+    start: fn(Box<WantedFiles>, &Address<SceneFilesAnswer>) -> std::io::Result<Job>,
     wanted: Box<WantedFiles>,
 ) -> SceneFilesAnswer {
     let (_thread, address, answers) = forwarding();
-    start(wanted, &address).expect("a job");
+    let _job = start(wanted, &address).expect("a job");
     answers.recv_timeout(Duration::from_secs(60)).expect("an answer")
 }
 
@@ -223,4 +225,162 @@ fn the_menu_of_a_thing_decides_about_the_edits_of_its_model() {
         panic!("{effect:?}")
     };
     assert_eq!(message, DocumentMessage::DecideAllOutdated(vec![edits], OutdatedEditsChoice::Remove));
+}
+
+/// Shows the same view as that of another document.
+fn open_another(window: &mut Window) {
+    let view = window.state().state.read().view.cloned().expect("a view");
+    let opened = Arc::new(LoadedModel::clone(&view.opened));
+    window.state_mut().state.show(View {
+        loaded: Arc::clone(&opened),
+        opened,
+        generation: view.generation + 1,
+        ..view
+    });
+    window.run_steps(2);
+}
+
+#[test]
+fn files_for_a_script_are_not_added_to_another_one_of_the_same_folder() {
+    let folder = Folder::new("window-files-other-script");
+    fs::copy(data("gltf/Fox.glb"), folder.join("knight.glb")).expect("a copy");
+    let mut window = window_in(&folder, scene(FOXES));
+    let effect = window.state_mut().state.execute(Request::Dropped(vec![folder.join("knight.glb")]));
+    let Some(Effect::LookAtFiles(wanted)) = effect else { panic!("{effect:?}") };
+    let target = wanted.target.clone();
+    let (wanted, copied) = done(scene_files::look, wanted).expect("it can be read");
+    open_another(&mut window);
+    assert_eq!(window.state_mut().state.files_answered(wanted, copied), None);
+    assert!(said(&window, "not open any more"));
+    // Models that were read in between are not added either.
+    let models = vec![("knight.glb".to_owned(), true)];
+    let place = DropPlace::Nowhere;
+    let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
+    assert_eq!(execute(&mut window, Request::DroppedModels(Box::new(dropped))), None);
+    assert_eq!(text(&window), FOXES);
+}
+
+/// Copies the files that the question is about.
+fn agree(window: &mut Window) -> Option<Effect> {
+    let question = window.state().state.read().question().cloned();
+    let Some(Question::Copy(question)) = question else { panic!("{question:?}") };
+    execute(window, Request::CopyFiles(question.wanted))
+}
+
+#[test]
+fn the_note_about_copies_names_only_what_was_copied_and_says_why_it_was_not_used() {
+    let (folder, other) = (Folder::new("window-files-note"), Folder::new("window-files-note-other"));
+    fs::write(folder.join("here.wav"), "a sound").expect("a file");
+    fs::write(other.join("there.wav"), "a sound").expect("a file");
+    let mut window = window_in(&folder, scene(FOXES));
+    execute(&mut window, Request::Dropped(vec![folder.join("here.wav"), other.join("there.wav")]));
+    agree(&mut window);
+    assert!(said(&window, "Copied sound/there.wav into the folder of the scene; Undo leaves the copies"));
+    // A script with errors gets nothing, and the message has the reason.
+    let mut window = window_in(&folder, scene(&FOXES.replace("who=\"ben\"", "who=\"nobody\"")));
+    fs::copy(data("gltf/Fox.glb"), other.join("knight.glb")).expect("a copy");
+    execute(&mut window, Request::AddRole(other.join("knight.glb")));
+    agree(&mut window);
+    let last = window.state().state.read().status.last().cloned().expect("a message").text;
+    let expected = "Copied models/knight.glb into the folder of the scene, but the scene was not changed: The script has errors";
+    assert!(last.starts_with(expected), "{last}");
+}
+
+#[test]
+fn the_message_of_a_save_tells_about_files_that_were_not_copied() {
+    let mut window = scene(FOXES).window();
+    let notices = vec!["models/Fox.glb does not exist; it was not copied".to_owned(), "another".to_owned()];
+    let saved = |notices: &[String]| SavedFile {
+        path: "/other/scene.xml".into(),
+        bytes: 9,
+        beside: 3,
+        copy: true,
+        notices: notices.to_vec(),
+        then: None,
+    };
+    let mut last = |notices: &[String]| {
+        window.state_mut().state.saved(&saved(notices));
+        window.state().state.read().status.last().cloned().expect("a message").text
+    };
+    let text = "Saved a copy as scene.xml and 3 further files";
+    assert_eq!(last(&[]), text);
+    assert_eq!(last(&notices[..1]), format!("{text}, with a warning: {}", notices[0]));
+    let both = last(&notices);
+    assert!(both.starts_with(&format!("{text}, with 2 warnings: {}", notices[0])), "{both}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_in_the_folder_that_leads_out_of_it_is_asked_about_as_a_file_from_outside() {
+    let (folder, other) = (Folder::new("window-files-link"), Folder::new("window-files-link-other"));
+    fs::copy(data("gltf/Fox.glb"), other.join("knight.glb")).expect("a copy");
+    std::os::unix::fs::symlink(other.join("knight.glb"), folder.join("linked.glb")).expect("a link");
+    let mut window = window_in(&folder, scene(FOXES));
+    execute(&mut window, Request::AddRole(folder.join("linked.glb")));
+    assert!(window.query_by_label("Copy linked.glb into models/?").is_some());
+    assert_eq!(text(&window), FOXES);
+    agree(&mut window);
+    let new = new_lines(FOXES, &text(&window));
+    assert!(new.len() == 1 && new[0].contains("model=\"models/linked.glb\""), "{new:?}");
+    assert!(!folder.join("models/linked.glb").is_symlink());
+}
+
+#[test]
+fn a_model_that_a_project_gets_is_listed_with_the_hash_of_its_file_in_the_same_step() {
+    let folder = Folder::new("window-files-hash");
+    let fox = fs::read(data("gltf/Fox.glb")).expect("a file");
+    fs::write(folder.join("knight.glb"), &fox).expect("a file");
+    let lines = "<lines version=\"1\"/>";
+    let mut window = window_in(&folder, project(FOXES, lines));
+    let before = named_text(&window, "scene.meproj");
+    let listed = |src: &str, id: &str| {
+        format!("<model id=\"{id}\" src=\"{src}\" hash=\"{:016x}\"/>", dragonfly_store::hash(&fox))
+    };
+    assert_eq!(execute(&mut window, Request::AddProp(folder.join("knight.glb"))), None);
+    let after = named_text(&window, "scene.meproj");
+    assert!(after.contains(&listed("knight.glb", "knight")), "{after}");
+    assert_eq!(window.state().steps(), (1, 1));
+    window.state_mut().change(Change::Undo);
+    window.run_steps(2);
+    assert_eq!((named_text(&window, "scene.meproj"), text(&window)), (before, FOXES.to_owned()));
+    // A dropped one, too, which the scene knows already.
+    fs::write(folder.join("Fox.glb"), &fox).expect("a file");
+    execute(&mut window, Request::Dropped(vec![folder.join("Fox.glb")]));
+    let after = named_text(&window, "scene.meproj");
+    assert!(after.contains(&listed("Fox.glb", "fox")), "{after}");
+}
+
+#[test]
+fn a_missing_model_that_only_an_included_script_names_is_not_offered_to_be_found() {
+    let folder = Folder::new("window-find-included");
+    let script = FOXES.replace("  <par id", "  <include src=\"parts.xml\"/>\n  <par id");
+    let mut window = window_in(&folder, scene_without(FOXES, &["gone.glb"]));
+    let parts = "<script version=\"1\"><cast><role id=\"cat\" model=\"gone.glb\"/></cast></script>";
+    let files = IncludedScripts::default().collected("scene.xml", &script, |_| Ok(parts.into()));
+    let context = ScriptContext { name: "scene.xml".into(), project: None, files };
+    let read = StageScript::read_in(script.as_str(), &context).expect("a script");
+    let view = window.state().state.read().view.cloned().expect("a view");
+    let scene = view.scene.clone().expect("a scene");
+    let tree = read.tree();
+    let cat = tree.elements().iter().find(|element| element.value("id") == Some("cat")).expect("a cat");
+    let note = tree.error(cat.value_range("model"), "does not exist".to_owned(), "");
+    let missing = scene.missing_model("gone.glb");
+    let scene = SceneView {
+        notes: [note].into(),
+        text: script.as_str().into(),
+        script: Some(Arc::new(read)),
+        ..SceneView::clone(&scene)
+    };
+    window.state_mut().state.show(View {
+        generation: view.generation + 1,
+        scene: Some(Arc::new(scene)),
+        ..view
+    });
+    window.run_steps(3);
+    assert!(window.query_by_label("Find the model of cat").is_none());
+    assert!(window.query_by_label("Find gone.glb").is_none());
+    let sentence = "gone.glb is named in parts.xml: open it to change it";
+    assert!(window.query_by_label_contains(sentence).is_some(), "the note names the file");
+    assert_eq!(execute(&mut window, Request::Scene(SceneRequest::Find(missing))), None);
+    assert!(said(&window, sentence));
 }

@@ -1,6 +1,6 @@
 //! Things of a scene on the ground: snapped while they are moved, dropped, added where a file is dropped.
 
-use crate::scene_bench::{FOXES, new_lines, scene, text};
+use crate::scene_bench::{FOXES, looked, new_lines, scene, text};
 use crate::scene_lines::{at, run, send};
 use crate::workbench::Window;
 use dragonfly::control::{InputEvent, Key};
@@ -78,7 +78,7 @@ fn dropped_at(window: &mut Window, place: DVec3, files: &[&str]) -> Vec<DVec3> {
     send(window, InputEvent::MouseMove(pointer));
     let files = files.iter().map(|file| (*file).into()).collect();
     let effect = window.state_mut().state.execute(Request::Dropped(files));
-    let change = match effect {
+    let change = match looked(window, effect) {
         Some(Effect::Change(change)) => change,
         other => panic!("{other:?}"),
     };

@@ -92,6 +92,18 @@ impl BesideStamps {
         self.0.get(&path)
     }
 
+    /// Returns the stamp of a file that no other program changed.
+    pub(super) fn unchanged(&self, path: &Path) -> Option<&FileStamp> {
+        self.of(path).filter(|stamp| matches!(stamp.state(&RealFiles, path), Ok(FileState::Same)))
+    }
+
+    /// Replaces the stamp of a file, if it has one.
+    pub(super) fn renew(&mut self, path: &Path, stamp: FileStamp) {
+        if let Some(own) = self.0.get_mut(path) {
+            *own = stamp;
+        }
+    }
+
     /// Adds the files of `other`, and replaces their stamps.
     pub(super) fn extend(&mut self, other: Self) {
         self.0.extend(other.0);

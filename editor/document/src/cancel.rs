@@ -12,6 +12,8 @@ pub enum LoadStage {
     Understanding,
     /// Reading the headers of the textures, which are decoded when the model is drawn.
     Decoding,
+    /// Copying the files that a scene needs into another folder.
+    Copying,
 }
 
 impl LoadStage {
@@ -21,6 +23,7 @@ impl LoadStage {
             Self::Reading => "Reading",
             Self::Understanding => "Understanding",
             Self::Decoding => "Decoding textures",
+            Self::Copying => "Copying files",
         }
     }
 }

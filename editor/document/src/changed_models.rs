@@ -19,8 +19,8 @@ pub(super) struct ChangedModels {
 pub(super) struct ChangedModelNews {
     /// The edits that were made for other files, of models that were read for the first time.
     pub(super) outdated: Vec<OutdatedEdits>,
-    /// Edits that were applied again and do not fit, a sentence for each model.
-    pub(super) unfit: Vec<String>,
+    /// The files of models whose edits were applied again and do not fit, and a sentence for each. No sentence occurs twice.
+    pub(super) unfit: Vec<(String, String)>,
 }
 
 impl ChangedModels {
@@ -32,21 +32,37 @@ impl ChangedModels {
         {
             return news;
         }
-        for (name, _, file) in models.read() {
+        for (name, source, file) in models.read() {
             if !self.known.contains(name) {
                 news.outdated.extend(outdated.iter().find(|edits| edits.model == name).cloned());
                 self.known.insert(name.to_owned());
             }
             if self.awaited.contains(name) {
-                news.unfit.extend(file.unfit.clone());
+                let is_new = |text: &&String| news.unfit.iter().all(|(_, other)| other != *text);
+                // A script may mean one model by its id and by its file.
+                let unfit = file.unfit.as_ref().filter(is_new);
+                news.unfit.extend(unfit.map(|text| (source.file.clone(), text.clone())));
             }
         }
         self.awaited.clear();
         news
     }
 
-    /// Notes that the edits of models were applied again.
+    /// Notes that the edits of models were applied again, and that the user is warned about those that do not fit.
     pub(super) fn await_fit(&mut self, models: impl IntoIterator<Item = String>) {
         self.awaited.extend(models);
+    }
+}
+
+impl ChangedModelNews {
+    /// Returns one sentence about all edits that do not fit, which names every model at its start; `None` where all fit.
+    pub(super) fn unfit_sentence(&self) -> Option<String> {
+        let (names, reasons): (Vec<&str>, Vec<&str>) =
+            self.unfit.iter().map(|(file, reason)| (file.as_str(), reason.as_str())).unzip();
+        match reasons.as_slice() {
+            [] => None,
+            [reason] => Some((*reason).to_owned()),
+            _ => Some(format!("edits of {} do not fit them: {}", names.join(", "), reasons.join("; "))),
+        }
     }
 }

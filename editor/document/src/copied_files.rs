@@ -1,10 +1,11 @@
 //! Files next to a document that it needs, and that a save into another folder copies there.
 
+use super::beside::BesideStamps;
 use super::editable::make_folder;
 use super::folder::{FileAccessError, open_file};
 use super::{Cancel, Folder};
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{ExpectedFile, RealFiles, SaveOptions, SaveOutcome, save};
+use dragonfly_store::{ExpectedFile, FileStamp, RealFiles, SaveOptions, SaveOutcome, Versions, save};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -12,88 +13,159 @@ use std::path::{Path, PathBuf};
 /// Number of bytes of two files that are compared at once.
 const COMPARED: usize = 64 << 10;
 
-/// Number of files that cannot be copied of which a notice names each.
+/// Number of files that cannot be copied, and of errors, of which a notice names each.
 const NAMED: usize = 5;
+
+/// The reason why a save that was cancelled ends.
+pub(super) const CANCELLED: &str = "the save was cancelled";
 
 /// Files of a folder that another folder gets under the same names. Their bytes are read when each is written, so that one is in memory at a time.
 #[derive(Debug, Default)]
 pub struct CopiedFiles {
     /// The folder that has them; `None` without files.
     from: Option<Folder>,
-    /// The name of each in that folder, and the path of its copy.
-    files: Vec<(String, PathBuf)>,
+    files: Vec<FileCopy>,
+    /// The paths at which the other folder has the same files already.
+    present: Vec<PathBuf>,
     /// Files that cannot be copied, a sentence each.
     missing: Vec<String>,
+    /// Errors because of which files that are needed may not be known, a sentence each.
+    errors: Vec<String>,
+}
+
+/// A file that is copied.
+#[derive(Debug)]
+struct FileCopy {
+    /// Its name in the folder that has it.
+    name: String,
+    /// The path of the copy.
+    path: PathBuf,
+    /// The stamp of an earlier copy, which this one replaces.
+    replaced: Option<FileStamp>,
 }
 
 impl CopiedFiles {
-    /// Finds which of the files `names` of `from` the folder `to` lacks. Those that cannot be read are left out, with a notice.
+    /// Finds which of the files `names` of `from` the folder `to` lacks. Those that cannot be read are left out, with a notice. `earlier` are
+    /// copies that the document wrote before, which are replaced unless they changed since.
     ///
     /// # Errors
     ///
-    /// The path of a file that exists in `to` and is another one; or it was cancelled.
+    /// The path of a file that exists in `to` and is another one, or would be written outside of `to` through links; or it was cancelled.
     pub(super) fn find(
         from: Folder,
         to: &Path,
         names: impl IntoIterator<Item = String>,
+        earlier: &BesideStamps,
         cancel: &Cancel,
     ) -> Result<Self, String> {
-        let (mut files, mut missing) = (Vec::new(), Vec::new());
+        let (mut files, mut present, mut missing) = (Vec::new(), Vec::new(), Vec::new());
         for name in names {
             if cancel.is_cancelled() {
-                return Err("the save was cancelled".to_owned());
+                return Err(CANCELLED.to_owned());
             }
             let opened = from.open(&name).and_then(sized);
             let target = to.join(&name);
+            if opened.is_ok() {
+                ensure_inside(to, &target)?;
+            }
             match opened {
-                Ok((file, size)) if is_same(&file, size, &target) => {}
-                Ok(_) if target.symlink_metadata().is_ok() => return Err(other_file(&target)),
-                Ok(_) => files.push((name, target)),
+                Ok((file, size)) if is_same(&file, size, &target) => present.push(target),
+                Ok(_) => {
+                    let replaced = earlier.unchanged(&target).copied();
+                    if replaced.is_none() && target.symlink_metadata().is_ok() {
+                        return Err(other_file(&target));
+                    }
+                    files.push(FileCopy { name, path: target, replaced });
+                }
                 Err(reason) => missing.push(format!("{name} {reason}; it was not copied")),
             }
         }
-        Ok(Self { from: Some(from), files, missing })
+        Ok(Self { from: Some(from), files, present, missing, errors: Vec::new() })
     }
 
-    /// Adds reasons why the document may need more files, a sentence each.
-    pub(super) fn add_missing(&mut self, reasons: Vec<String>) {
-        self.missing.extend(reasons);
+    /// Adds a sentence about files that cannot be copied.
+    pub(super) fn add_missing(&mut self, reason: String) {
+        self.missing.push(reason);
     }
 
-    /// Returns sentences for the user about files that are not copied, the first few.
+    /// Adds errors because of which the document may need more files, a sentence each.
+    pub(super) fn add_errors(&mut self, errors: Vec<String>) {
+        self.errors.extend(errors);
+    }
+
+    /// Returns sentences for the user: the first few files that are not copied and the number of the others, then the same of the errors.
     pub fn notices(&self) -> impl Iterator<Item = String> + '_ {
-        let more = self.missing.len().saturating_sub(NAMED);
-        let more = (more > 0).then(|| format!("{more} more files were not copied"));
-        self.missing.iter().take(NAMED).cloned().chain(more)
+        let more = |list: &[String]| list.len().saturating_sub(NAMED);
+        let files = match more(&self.missing) {
+            0 => None,
+            1 => Some("one more file was not copied".to_owned()),
+            more => Some(format!("{more} more files were not copied")),
+        };
+        let errors = match (self.errors.len(), more(&self.errors)) {
+            (0, _) => None,
+            (_, 0) => Some("files that are needed may not be known because of these errors".to_owned()),
+            (_, 1) => {
+                Some("files that are needed may not be known because of these errors and one more".to_owned())
+            }
+            (_, more) => Some(format!(
+                "files that are needed may not be known because of these errors and {more} more"
+            )),
+        };
+        let missing = self.missing.iter().take(NAMED).cloned().chain(files);
+        missing.chain(self.errors.iter().take(NAMED).cloned()).chain(errors)
     }
 
     /// Returns the paths of the copies.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
-        self.files.iter().map(|(_, path)| &**path)
+        self.files.iter().map(|file| &*file.path)
+    }
+
+    /// Returns the paths at which the other folder has the same files already.
+    pub(super) fn present(&self) -> impl Iterator<Item = &Path> {
+        self.present.iter().map(|path| &**path)
     }
 
     /// Writes the copies, one after the other. `written` gets the path of each, its size in bytes, and what was saved.
     ///
     /// # Errors
     ///
-    /// The path and the reason. Those before it were written. A file that is there by now is not overwritten.
+    /// The path and the reason. Those before it were written, each as a whole. A file that is there by now is not overwritten.
     pub fn write(
         &self,
+        versions: Option<&Versions>,
         cancel: &Cancel,
         mut written: impl FnMut(&Path, usize, SaveOutcome),
     ) -> Result<(), String> {
         let Some(from) = &self.from else { return Ok(()) };
-        for (name, path) in &self.files {
+        for FileCopy { name, path, replaced } in &self.files {
             if cancel.is_cancelled() {
-                return Err("the save was cancelled".to_owned());
+                return Err(CANCELLED.to_owned());
             }
             let bytes = from.read(name, FILE_BYTES).map_err(|reason| format!("{name} {reason}"))?;
             make_folder(path)?;
-            let options = SaveOptions { expected: ExpectedFile::Nothing, versions: None };
-            let saved = save(&RealFiles, path, &bytes, &options).map_err(|error| error.to_string())?;
+            let expected = replaced.as_ref().map_or(ExpectedFile::Nothing, ExpectedFile::Stamp);
+            let versions = versions.filter(|_| replaced.is_some());
+            let saved = save(&RealFiles, path, &bytes, &SaveOptions { expected, versions })
+                .map_err(|error| error.to_string())?;
             written(path, bytes.len(), saved);
         }
         Ok(())
+    }
+}
+
+/// Checks that a file below the folder `to` is not written outside of it through links.
+///
+/// # Errors
+///
+/// The path and the reason.
+pub(super) fn ensure_inside(to: &Path, target: &Path) -> Result<(), String> {
+    // A folder that does not exist yet has no links.
+    let Ok(root) = to.canonicalize() else { return Ok(()) };
+    // The file, or else the deepest folder that exists; those below it are created.
+    let there = target.ancestors().find_map(|path| path.canonicalize().ok());
+    match there.is_some_and(|there| there.starts_with(&root)) {
+        true => Ok(()),
+        false => Err(format!("{}: a link leads out of the folder; choose another folder", target.display())),
     }
 }
 

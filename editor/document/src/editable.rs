@@ -18,7 +18,7 @@ use dragonfly_anim::format::{
     SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{FileStamp, FileState, RealFiles, Vfs, folder_of};
+use dragonfly_store::{FileData, FileStamp, FileState, RealFiles, Vfs, folder_of};
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -43,6 +43,8 @@ pub struct Editable {
     pub(super) stamp: Option<FileStamp>,
     /// State of its buffers in other files when they were last read or saved.
     pub(super) beside: BesideStamps,
+    /// State of the files that saves into other folders wrote there, which later ones may replace.
+    pub(super) copies: BesideStamps,
     /// The model with the skeleton and the takes that are in the file now.
     pub(super) on_disk: Arc<ModelData>,
     /// Index of each take among the animations of the file, once it was saved.
@@ -55,6 +57,8 @@ impl Editable {
         if let Some(path) = source.path().filter(|path| is_scene(path)) {
             return Ok(Self::of_texts(read_texts(path)?));
         }
+        // Taken before the file is read, so that a change in between is found.
+        let before = source.path().and_then(|path| FileStamp::before(&RealFiles, path).ok());
         let (name, bytes, path) = match source {
             Source::BuiltIn => ("dragonfly.glb".to_owned(), DRAGONFLY_GLB.to_vec(), None),
             Source::File(path) | Source::FileAs(path, _) => {
@@ -63,20 +67,15 @@ impl Editable {
             }
         };
         let wrong = |reason: String| LoadError::Format { title: source.title(), reason };
+        let stamp = stamp_of(path.as_deref().zip(before.as_ref()), &bytes).map_err(wrong)?;
         let door = match &path {
             Some(path) => Some(ReadOnce::of(path).map_err(|error| wrong(error.to_string()))?),
             None => None,
         };
         let read_once = &door;
-        // Taken after the file was read. A change between the two is found below: the stamp is then not that of the
-        // bytes.
-        let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
         let door: &dyn AssetFs = read_once.as_ref().map_or(&NoFiles, |folder| folder);
         let conventions = source.conventions();
         let imported = import::read(&name, &bytes, ImportDoor { files: door, conventions }, &|_| {}, cancel)?;
-        if stamp.as_ref().is_some_and(|stamp| !stamp.is_of(&bytes)) {
-            return Err(wrong("the file changed while it was read; open it again".to_owned()));
-        }
         let options = ReadOptions { conventions, ..ReadOptions::default() };
         let file = imported.format.edit(&name, bytes, door, &options);
         let file = file.map_err(|error| wrong(error.to_string()))?;
@@ -94,6 +93,7 @@ impl Editable {
             content,
             stamp,
             beside,
+            copies: BesideStamps::default(),
             on_disk,
             places: None,
         })
@@ -120,6 +120,7 @@ impl Editable {
             content: EditedContent::Model(Arc::new(file)),
             stamp,
             beside: door.map(ReadOnce::stamps).unwrap_or_default(),
+            copies: BesideStamps::default(),
             on_disk: Arc::clone(&loaded.model),
             places: None,
         })
@@ -139,6 +140,7 @@ impl Editable {
             content: EditedContent::Texts(texts),
             stamp,
             beside,
+            copies: BesideStamps::default(),
             places: None,
         }
     }
@@ -293,6 +295,23 @@ impl Editable {
     /// Detaches the document from its file: the next save asks for a path.
     pub(super) fn forget_file(&mut self) {
         self.stamp = None;
+    }
+}
+
+/// Returns the stamp of a file that was read as `bytes` after its metadata was taken; `None` where there is no file, or its state cannot be examined.
+///
+/// # Errors
+///
+/// The file changed while it was read.
+pub(super) fn stamp_of(file: Option<(&Path, &FileData)>, bytes: &[u8]) -> Result<Option<FileStamp>, String> {
+    let Some((path, before)) = file else { return Ok(None) };
+    match FileStamp::of_read(&RealFiles, path, before, bytes) {
+        Ok(stamp) => Ok(Some(stamp)),
+        Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {
+            Err("the file changed while it was read; open it again".to_owned())
+        }
+        // A change that cannot be detected now will be noticed when the file is saved.
+        Err(_) => Ok(None),
     }
 }
 

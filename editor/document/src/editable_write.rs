@@ -2,6 +2,7 @@
 
 use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
+use super::copied_files::other_file;
 use super::editable::{Editable, is_same_path, make_folder, opened, places};
 use super::edited_content::EditedContent;
 use super::save_files::{SaveFiles, WrittenFile};
@@ -11,9 +12,7 @@ use super::{Cancel, unused};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::buffer_of_save;
 use dragonfly_anim::root_bone::BoneShift;
-use dragonfly_store::{
-    ExpectedFile, FileStamp, FileState, RealFiles, SaveOptions, folder_of, remove_unfinished,
-};
+use dragonfly_store::{ExpectedFile, FileState, RealFiles, SaveOptions, folder_of, remove_unfinished};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -37,12 +36,17 @@ impl Editable {
         self.check_expected(&files, &main, &how)?;
         let mut beside = BesideStamps::default();
         let mut saved = FilesSaved { notices: copied.notices().collect(), ..FilesSaved::default() };
-        copied.write(cancel, |path, _, done| {
+        copied.write(how.versions, cancel, |path, _, done| {
             saved.notices.extend(done.notices);
             saved.files.push(path.to_path_buf());
+            self.copies.add(done.path, done.stamp);
         })?;
-        for path in &kept {
-            if let (Ok(path), Ok(stamp)) = (path.canonicalize(), FileStamp::take(&RealFiles, path)) {
+        for (path, stamp) in kept {
+            // It was found to be the same when the files were listed.
+            if !matches!(stamp.state(&RealFiles, &path), Ok(FileState::Same)) {
+                return Err(SaveFailure::Other(other_file(&path)));
+            }
+            if let Ok(path) = path.canonicalize() {
                 beside.add(path, stamp);
             }
         }
@@ -55,6 +59,10 @@ impl Editable {
                 .and_then(|()| save_file(how.disk, path, bytes, &options));
             match done {
                 Ok(done) => {
+                    match how.is_elsewhere {
+                        true => self.copies.add(done.path.clone(), done.stamp),
+                        false => self.copies.renew(&done.path, done.stamp),
+                    }
                     beside.add(done.path, done.stamp);
                     saved.notices.extend(done.notices);
                     saved.files.push(path.clone());
@@ -119,8 +127,10 @@ impl Editable {
         let is_text = matches!(self.content, EditedContent::Texts(_));
         let is_decided = || how.replaces.iter().any(|other| is_same_path(other, path));
         match self.beside.of(path) {
-            // There was none when the files were listed.
-            _ if how.is_elsewhere && is_text => ExpectedFile::Nothing,
+            // There was none when the files were listed, or an earlier copy.
+            _ if how.is_elsewhere && is_text => {
+                self.copies.of(path).map_or(ExpectedFile::Nothing, ExpectedFile::Stamp)
+            }
             _ if how.overwrite != Overwrite::AsRead => ExpectedFile::Anything,
             // The user decided about a file that the document had not read.
             Some(stamp) => ExpectedFile::Stamp(stamp),

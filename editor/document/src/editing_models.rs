@@ -3,7 +3,6 @@
 //! A model has its own history and journal while it is edited. When the scene is shown again, the edits that are not saved into the model
 //! become one step of the project, and are saved with it ([`super::project_edits`]).
 
-use super::changed_models::ChangedModelNews;
 use super::edit::Edit;
 use super::job::JobNews;
 use super::message::DocumentReply;
@@ -281,8 +280,13 @@ impl Document {
         now: Instant,
     ) {
         let done = match self.shown_or_waiting_scene() {
-            Some(scene) if scene.scene.is_some() => settle(scene, outdated, choice, now),
-            _ => Err("the scene is not open any more".to_owned()),
+            Some(Open { scene: None, .. }) | None => Err("the scene is not open any more".to_owned()),
+            Some(open) => settle(open, outdated, choice, now).map(|is_changed| {
+                if let (Some(scene), OutdatedEditsChoice::Apply, true) = (&mut open.scene, choice, is_changed)
+                {
+                    scene.await_fit(outdated.iter().map(|edits| edits.model.clone()));
+                }
+            }),
         };
         match done {
             Ok(()) => self.changed(),
@@ -293,14 +297,19 @@ impl Document {
     /// Tells the user about models whose files changed since the edits that the project keeps were made.
     pub(super) fn report_changed_models(&mut self) {
         let scene = self.open.as_mut().and_then(|open| open.scene.as_mut());
-        let ChangedModelNews { outdated, unfit } = scene.map(OpenScene::changed_models).unwrap_or_default();
-        if !outdated.is_empty() {
-            self.reply(DocumentReply::ChangedModels(outdated));
+        let news = scene.map(OpenScene::changed_models).unwrap_or_default();
+        // One warning for all: a later one would hide those before.
+        let unfit = news.unfit_sentence();
+        if !news.outdated.is_empty() {
+            self.reply(DocumentReply::ChangedModels(news.outdated));
         }
-        unfit.into_iter().for_each(|text| self.reply(DocumentReply::Warning(sentence(&text))));
+        if let Some(text) = unfit {
+            self.reply(DocumentReply::Warning(sentence(&text)));
+        }
     }
 
-    /// Carries out the user's decision about edits that a project keeps for another file of a model, and then opens the model to edit it.
+    /// Carries out the user's decision about edits that a project keeps for another file of a model, and then opens the model to edit it, which
+    /// warns about edits that do not fit.
     pub(super) fn decide_outdated(
         &mut self,
         outdated: &OutdatedEdits,
@@ -357,17 +366,13 @@ fn give_edits(scene: &mut Open, model: &EditedModel<'_>, now: Instant) -> Result
     done.map(|_| ()).map_err(|error| error.to_string())
 }
 
-/// Carries out the choice of the user about edits that were made for other files, in one step.
+/// Carries out the choice of the user about edits that were made for other files, in one step. Returns whether it changed anything.
 fn settle(
     scene: &mut Open,
     outdated: &[OutdatedEdits],
     choice: OutdatedEditsChoice,
     now: Instant,
-) -> Result<(), String> {
-    let Some(edit) = settled(scene.edited.adapter().texts(), outdated, choice)? else { return Ok(()) };
-    scene.change(Change::Edit(edit.into(), None), now).map_err(|error| error.to_string())?;
-    if let (Some(scene), OutdatedEditsChoice::Apply) = (&mut scene.scene, choice) {
-        scene.await_fit(outdated.iter().map(|edits| edits.model.clone()));
-    }
-    Ok(())
+) -> Result<bool, String> {
+    let Some(edit) = settled(scene.edited.adapter().texts(), outdated, choice)? else { return Ok(false) };
+    scene.change(Change::Edit(edit.into(), None), now).map_err(|error| error.to_string())
 }

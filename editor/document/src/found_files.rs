@@ -37,6 +37,23 @@ impl SceneView {
         let file = self.project.as_ref().map_or(name, |project| project.source_of(name));
         MissingFile { kind: SceneFileKind::Model, name: name.to_owned(), file: file.to_owned() }
     }
+
+    /// Returns the included file that names a missing file, if neither the script that is shown nor the project does: it is no text of the document, so
+    /// that the file cannot be named elsewhere in it.
+    pub fn included_place_of(&self, missing: &MissingFile) -> Option<&str> {
+        let tree = self.script.as_ref()?.tree();
+        let names = |element: &&ScriptElement| attribute_of(element, missing).is_some();
+        let is_own = |element: &&ScriptElement| element.is_own() && names(element);
+        let project = self.project.as_ref().map(|project| project.tree());
+        if [Some(tree), project]
+            .into_iter()
+            .flatten()
+            .any(|tree| tree.elements().iter().any(|one| is_own(&one)))
+        {
+            return None;
+        }
+        included_place_in(tree, missing)
+    }
 }
 
 /// Returns the edits by which the texts of a scene name each missing file by the name of the file that was found, relative to the folder of the scene.
@@ -115,14 +132,24 @@ fn attribute_of(element: &ScriptElement, missing: &MissingFile) -> Option<&'stat
 
 /// Returns the sentence that only a file that is included names a file.
 fn place_of(script: &StageScript, missing: &MissingFile) -> String {
-    let tree = script.tree();
-    let mut named = tree
-        .elements()
-        .iter()
-        .filter(|element| element.attributes.iter().any(|attribute| *attribute.value == *missing.name));
-    match named.find_map(|element| tree.file_of(element)) {
-        Some(file) => format!("{} is named in {file}: open it to change it", missing.file),
+    match included_place_in(script.tree(), missing) {
+        Some(file) => missing.named_in(file),
         None => format!("nothing names {} any more", missing.file),
+    }
+}
+
+/// Returns the first included file of a script that names a missing file.
+fn included_place_in<'a>(tree: &'a ScriptTree, missing: &MissingFile) -> Option<&'a str> {
+    let is_it = |element: &&ScriptElement| {
+        element.attributes.iter().any(|attribute| *attribute.value == *missing.name)
+    };
+    tree.elements().iter().filter(is_it).find_map(|element| tree.file_of(element))
+}
+
+impl MissingFile {
+    /// Returns the sentence that this included file names it.
+    pub fn named_in(&self, included: &str) -> String {
+        format!("{} is named in {included}: open it to change it", self.file)
     }
 }
 

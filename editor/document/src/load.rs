@@ -3,6 +3,7 @@
 
 use super::adapter::{ModelAdapter, TextFiles, unused_layers};
 use super::beside::{BesideStamps, ReadOnce};
+use super::editable::stamp_of;
 use super::images::ImageSurvey;
 use super::import;
 use super::source::{LoadError, Source};
@@ -104,8 +105,10 @@ impl OpenedModel {
     /// to it are not read.
     pub fn of_bytes(loaded: LoadedModel, source: &Source, bytes: Vec<u8>) -> Self {
         let stamp = source.path().and_then(|path| FileStamp::take(&RealFiles, path).ok());
-        let stamp = stamp.filter(|stamp| stamp.is_of(&bytes));
-        let editable = Editable::of(source, bytes, stamp, &loaded, None);
+        let editable = match stamp.filter(|stamp| !stamp.is_of(&bytes)) {
+            Some(_) => Err("the file changed while it was read; open it again".to_owned()),
+            None => Editable::of(source, bytes, stamp, &loaded, None),
+        };
         Self { loaded, editable, texts: TextFiles::default() }
     }
 
@@ -152,16 +155,8 @@ impl<'a> Read<'a> {
 
     /// Returns the state of the file now that it was read; `None` where there is no file.
     fn stamp(&self) -> Result<Option<FileStamp>, LoadError> {
-        let (Some(path), Some(before)) = (self.source.path(), &self.before) else { return Ok(None) };
-        match FileStamp::of_read(&RealFiles, path, before, &self.bytes) {
-            Ok(stamp) => Ok(Some(stamp)),
-            Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => Err(LoadError::Format {
-                title: self.source.title(),
-                reason: "the file changed while it was read; open it again".to_owned(),
-            }),
-            // A change that cannot be detected now will be noticed when the file is saved.
-            Err(_) => Ok(None),
-        }
+        let wrong = |reason| LoadError::Format { title: self.source.title(), reason };
+        stamp_of(self.source.path().zip(self.before.as_ref()), &self.bytes).map_err(wrong)
     }
 
     fn load(&self, progress: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<LoadedModel, LoadError> {

@@ -25,7 +25,7 @@ pub enum DocumentMessage {
         /// again.
         anyway: bool,
     },
-    /// Cancels loading, and the import of takes.
+    /// Cancels loading, the import of takes, and a save that copies the files of a scene into another folder.
     CancelLoading,
     /// Saves.
     Save(SaveOrder),
@@ -92,7 +92,7 @@ pub enum DocumentReply {
     Opened(Arc<LoadedModel>),
     /// The file was opened again with the unsaved edits; follows after [`DocumentReply::Opened`]. Contains the edits that do not fit.
     Rebased(Vec<UnfitEdit>),
-    /// A model is loading.
+    /// A model is loading, or the files of a scene are being copied into another folder.
     Loading {
         /// Its title.
         title: String,

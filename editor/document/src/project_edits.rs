@@ -143,9 +143,14 @@ fn with_model(project: &StageProject, model: &EditedModel<'_>) -> Option<(String
     if let Some(id) = project.model_id(model.name) {
         return Some((id.to_owned(), text.to_string()));
     }
+    with_new_model(project, model.file)
+}
+
+/// Returns the id of a new model of the project, and the text of the project with it.
+fn with_new_model(project: &StageProject, file: &str) -> Option<(String, String)> {
     let ids: HashSet<&str> = project.tree().elements().iter().filter_map(|one| one.value("id")).collect();
-    let id = new_id(model.file, |id| ids.contains(id));
-    let element = NewElement::new("model").with("id", &id).with("src", model.file);
+    let id = new_id(file, |id| ids.contains(id));
+    let element = NewElement::new("model").with("id", &id).with("src", file);
     let position = |project: &StageProject, name: &str| {
         project.tree().elements().iter().rposition(|element| element.row.name == name)
     };
@@ -160,6 +165,31 @@ fn with_model(project: &StageProject, model: &EditedModel<'_>) -> Option<(String
     };
     let new = insert(project.tree(), place, &element)?;
     Some((id, new.apply(project.tree().text())))
+}
+
+/// Returns the edit of a project by which it lists these models, each by its file relative to the folder of the project and the hash of the file. A hash
+/// that it states already stays. `None` where the project has all of them.
+pub fn listed_models<'a>(
+    project: &StageProject,
+    models: impl IntoIterator<Item = (&'a str, u64)>,
+    label: ScriptLabel,
+) -> Option<EditScript> {
+    let mut new = project.clone();
+    for (file, hash) in models {
+        let find = |project: &StageProject| {
+            let elements = project.tree().elements();
+            elements.iter().position(|one| one.row.name == "model" && one.value("src") == Some(file))
+        };
+        if find(&new).is_none() {
+            new = StageProject::read(with_new_model(&new, file)?.1).ok()?;
+        }
+        let model = find(&new)?;
+        if new.tree().elements()[model].value("hash").is_none() {
+            let splices = set_attribute(new.tree(), model, "hash", &format!("{hash:016x}"))?;
+            new = StageProject::read(splices.apply(new.tree().text())).ok()?;
+        }
+    }
+    EditScript::between(project.tree().text(), new.tree().text(), Some(label))
 }
 
 /// Returns the text of a project that names the edits of a model, with the hash of the file for which they were made.

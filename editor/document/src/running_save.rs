@@ -1,11 +1,12 @@
 //! A save that is running, and what must wait for its end.
 
+use super::copied_files::CANCELLED;
 use super::job::JobNews;
 use super::message::{DocumentMessage, DocumentReply};
 use super::owner::Document;
 use super::save_job::{PreparedSave, SaveInput, WrittenSave, prepare};
 use super::saving::{FailedSave, NotSaved, SaveOrder, SavedFile};
-use super::{Cancel, Change, LoadError, OpenedModel};
+use super::{Cancel, Change, LoadError, LoadStage, OpenedModel, Progress};
 use dragonfly_runtime::{Address, Job};
 use std::time::Instant;
 
@@ -17,7 +18,10 @@ pub(super) struct RunningSave {
     order: SaveOrder,
     ticket: u64,
     steps: flume::Receiver<SaveStage>,
-    _job: Job,
+    /// Whether files are copied along, which may take long: it can be cancelled then.
+    copies_along: bool,
+    is_cancelled: bool,
+    job: Job,
 }
 
 /// The end of a step of a save.
@@ -36,6 +40,8 @@ pub(super) enum Deferred {
 /// Whether a message must wait while a save is running.
 #[derive(PartialEq, Eq)]
 enum Waits {
+    /// It never waits, not even for messages before it that do.
+    Never,
     No,
     /// It waits, and later messages do not wait for it.
     Alone,
@@ -45,8 +51,8 @@ enum Waits {
 
 fn waits(message: &DocumentMessage) -> Waits {
     match message {
-        DocumentMessage::CancelLoading
-        | DocumentMessage::Plan(_)
+        DocumentMessage::CancelLoading => Waits::Never,
+        DocumentMessage::Plan(_)
         | DocumentMessage::ShowScript(_)
         | DocumentMessage::SoundsRead(_)
         | DocumentMessage::Search
@@ -79,6 +85,7 @@ impl RunningSave {
         document: &Address<JobNews>,
         ticket: u64,
         order: SaveOrder,
+        copies_along: bool,
         failed: fn(NotSaved) -> SaveStage,
         work: impl FnOnce(&Cancel) -> SaveStage + Send + 'static,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
@@ -99,7 +106,7 @@ impl RunningSave {
             },
         );
         match job {
-            Ok(job) => Ok(Self { order, ticket, steps, _job: job }),
+            Ok(job) => Ok(Self { order, ticket, steps, copies_along, is_cancelled: false, job }),
             Err(error) => {
                 let reason = NotSaved::Failed(format!("the save could not be started: {error}"));
                 Err(Box::new((order, reason)))
@@ -113,10 +120,11 @@ impl RunningSave {
         order: SaveOrder,
         input: SaveInput,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
+        let copies_along = input.copies_along();
         let work = move |cancel: &Cancel| {
             SaveStage::Prepared(prepare(input, cancel).map(Box::new).map_err(NotSaved::Failed))
         };
-        Self::start(document, ticket, order, |reason| SaveStage::Prepared(Err(reason)), work)
+        Self::start(document, ticket, order, copies_along, |reason| SaveStage::Prepared(Err(reason)), work)
     }
 
     fn write(
@@ -125,17 +133,30 @@ impl RunningSave {
         order: SaveOrder,
         prepared: Box<PreparedSave>,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
+        let copies_along = prepared.copies_along();
         let work = move |cancel: &Cancel| {
             SaveStage::Written(prepared.write(cancel).map(Box::new).map_err(FailedSave::from))
         };
-        Self::start(document, ticket, order, |reason| SaveStage::Written(Err(reason.into())), work)
+        Self::start(
+            document,
+            ticket,
+            order,
+            copies_along,
+            |reason| SaveStage::Written(Err(reason.into())),
+            work,
+        )
     }
 }
 
 impl Document {
     /// Returns the message, or `None` where it must wait for the end of a save.
     pub(super) fn unless_deferred(&mut self, message: DocumentMessage) -> Option<DocumentMessage> {
-        if self.save.is_none() || (waits(&message) == Waits::No && !self.all_wait()) {
+        let waits = match waits(&message) {
+            Waits::Never => false,
+            Waits::No => self.all_wait(),
+            Waits::Alone | Waits::WithAllAfter => true,
+        };
+        if self.save.is_none() || !waits {
             return Some(message);
         }
         self.deferred.push_back(Deferred::Message(message));
@@ -159,8 +180,8 @@ impl Document {
         match open.begin_save(&order, self.scene.as_ref(), autosave.as_ref(), faults, now) {
             Ok(input) => {
                 if input.copies_along() {
-                    let text = format!("Saving {title} with the files that it needs…");
-                    self.reply(DocumentReply::Notice(text));
+                    let progress = Progress { stage: LoadStage::Copying, done: 0.0 };
+                    self.reply(DocumentReply::Loading { title, progress });
                 } else if large {
                     self.reply(DocumentReply::Notice(format!("Saving {title}…")));
                 }
@@ -190,6 +211,10 @@ impl Document {
     pub(super) fn save_step(&mut self, ticket: u64, now: Instant) {
         let Some(save) = self.save.take_if(|save| save.ticket == ticket) else { return };
         match save.steps.recv() {
+            // It was cancelled while this step ended.
+            Ok(SaveStage::Prepared(Ok(_))) if save.is_cancelled => {
+                self.end_save(save.order, Err(NotSaved::Failed(CANCELLED.to_owned()).into()), now);
+            }
             Ok(SaveStage::Prepared(Ok(mut prepared))) => {
                 let Some(open) = &mut self.open else { return };
                 open.record_saving(&mut prepared, now);
@@ -204,11 +229,32 @@ impl Document {
         }
     }
 
-    /// Waits for the end of the save that is running, before the document ends.
+    /// Cancels a save that copies files into another folder, if one is running: it stops between two files.
+    pub(super) fn cancel_copies(&mut self) {
+        if self.stop_copies() {
+            let text = "Saving stops after the file that is being copied";
+            self.reply(DocumentReply::Notice(text.to_owned()));
+        }
+    }
+
+    /// Asks a save that copies files into another folder to stop. Returns whether there is one.
+    fn stop_copies(&mut self) -> bool {
+        let Some(save) = self.save.as_mut().filter(|save| save.copies_along) else { return false };
+        save.is_cancelled = true;
+        save.job.cancel();
+        true
+    }
+
+    /// Waits for the end of the save that is running, before the document ends. One that copies files into another folder is cancelled: what is
+    /// not saved is in the journal.
     pub(super) fn wait_for_save(&mut self) {
+        self.stop_copies();
         let Some(save) = self.save.take() else { return };
         let now = Instant::now();
         let written = match save.steps.recv() {
+            Ok(SaveStage::Prepared(Ok(prepared))) if prepared.copies_along() => {
+                Err(NotSaved::Failed(CANCELLED.to_owned()).into())
+            }
             Ok(SaveStage::Prepared(Ok(mut prepared))) => {
                 // The document was lost, and with it the journal.
                 let Some(open) = &mut self.open else { return };
@@ -248,8 +294,8 @@ impl Document {
                 self.noticed = None;
                 self.reply(DocumentReply::Saved(SavedFile { then: order.then, ..saved }));
             }
-            Err(FailedSave { reason, partly }) => {
-                open.save_failed(partly);
+            Err(FailedSave { reason, partly, copies }) => {
+                open.save_failed(partly, copies);
                 self.reply(DocumentReply::NotSaved(order, reason));
             }
         }

@@ -1,14 +1,15 @@
 //! The files of a save: those that change, and those that another folder needs with them.
 
 use super::adapter::{TextFile, TextFiles};
-use super::copied_files::{CopiedFiles, is_same, other_file};
+use super::beside::BesideStamps;
+use super::copied_files::{CANCELLED, CopiedFiles, ensure_inside, other_file};
 use super::editable::{Editable, is_same_path};
 use super::edited_content::EditedContent;
 use super::needed_files::NeededFiles;
 use super::text_source::is_project;
 use super::{Cancel, Folder};
 use dragonfly_anim::format::{OutputFile, SavePlan};
-use dragonfly_store::folder_of;
+use dragonfly_store::{FileStamp, RealFiles, folder_of};
 use std::path::{Path, PathBuf};
 
 /// Path and contents of a file to write.
@@ -21,8 +22,8 @@ pub struct SaveFiles {
     pub copied: CopiedFiles,
     /// The files that are written. The file itself is last, so that it never refers to a file that does not exist.
     pub written: Vec<WrittenFile>,
-    /// Texts of the document that another folder has already, with the same contents.
-    pub(super) kept: Vec<PathBuf>,
+    /// Texts of the document that another folder has already, with the same contents, and the stamps with which they were found to be the same.
+    pub(super) kept: Vec<(PathBuf, FileStamp)>,
     /// Whether they are in another folder than the document.
     pub(super) is_elsewhere: bool,
 }
@@ -53,6 +54,9 @@ impl Editable {
         let from = self.path.as_deref().map(folder_of).filter(is_elsewhere);
         let mut files = SaveFiles { is_elsewhere: from.is_some(), ..SaveFiles::default() };
         let Some(from) = from else {
+            if !is_device {
+                self.ensure_not_needed(plan, output, cancel)?;
+            }
             files.written = beside.iter().map(written).collect();
             files.written.push((output.to_path_buf(), main.bytes.clone()));
             return Ok(files);
@@ -61,11 +65,9 @@ impl Editable {
             (Ok(from), _) => from,
             // Its folder is gone, and the texts are here.
             (Err(error), EditedContent::Texts(texts)) => {
-                files.add_texts(&saved_texts(texts, plan), folder)?;
+                files.add_texts(&saved_texts(texts, plan), folder, &self.copies)?;
                 files.written.push((output.to_path_buf(), main.bytes.clone()));
-                files
-                    .copied
-                    .add_missing(vec![format!("nothing was copied from {}: {error}", from.display())]);
+                files.copied.add_missing(format!("nothing was copied from {}: {error}", from.display()));
                 return Ok(files);
             }
             (Err(error), EditedContent::Model(_)) => return Err(format!("{}: {error}", from.display())),
@@ -79,43 +81,75 @@ impl Editable {
             }
             EditedContent::Texts(texts) => {
                 let texts = saved_texts(texts, plan);
-                files.add_texts(&texts, folder)?;
+                files.add_texts(&texts, folder, &self.copies)?;
                 let needed =
                     NeededFiles::of(&texts, self.path.as_deref().is_some_and(is_project), &from, cancel);
                 let is_other = |name: &String| texts.called(name).is_none();
                 NeededFiles { names: needed.names.into_iter().filter(is_other).collect(), ..needed }
             }
         };
-        files.copied = CopiedFiles::find(from, folder, needed.names, cancel)?;
-        files.copied.add_missing(needed.reasons);
+        if cancel.is_cancelled() {
+            return Err(CANCELLED.to_owned());
+        }
+        files.copied = CopiedFiles::find(from, folder, needed.names, &self.copies, cancel)?;
+        files.copied.add_errors(needed.reasons);
         if files.has(output) {
-            let path = output.display();
-            return Err(format!("{path}: the scene needs another file of this name; choose another name"));
+            return Err(needed_file(output));
         }
         files.written.push((output.to_path_buf(), main.bytes.clone()));
         Ok(files)
     }
 }
 
+impl Editable {
+    /// Checks that a save as another file of the folder does not replace a file that the document needs.
+    fn ensure_not_needed(&self, plan: &SavePlan, output: &Path, cancel: &Cancel) -> Result<(), String> {
+        let EditedContent::Texts(texts) = &self.content else { return Ok(()) };
+        if self.is_own(output) || output.symlink_metadata().is_err() {
+            return Ok(());
+        }
+        let folder = Folder::of(output).map_err(|error| format!("{}: {error}", output.display()))?;
+        let texts = saved_texts(texts, plan);
+        let is_of_project = self.path.as_deref().is_some_and(is_project);
+        let needed = NeededFiles::of(&texts, is_of_project, &folder, cancel);
+        let others = texts.list().iter().skip(1).map(|file| file.name.to_string());
+        // A missing file that is needed is no reason: then there is no file of this name.
+        let is_it = |name: &String| is_same_path(&folder_of(output).join(name), output);
+        match needed.names.into_iter().chain(others).any(|name| is_it(&name)) {
+            true => Err(needed_file(output)),
+            false => Ok(()),
+        }
+    }
+}
+
+/// Returns the reason why a document is not saved in place of a file that it needs.
+fn needed_file(path: &Path) -> String {
+    format!("{}: the scene needs another file of this name; choose another name", path.display())
+}
+
 impl SaveFiles {
     /// Returns whether a file that is needed, or another text, has this path.
     fn has(&self, path: &Path) -> bool {
         let written = self.written.iter().map(|(path, _)| &**path);
-        let kept = self.kept.iter().map(|path| &**path);
-        written.chain(kept).chain(self.copied.paths()).any(|other| other == path)
+        let kept = self.kept.iter().map(|(path, _)| &**path);
+        let copied = self.copied.paths().chain(self.copied.present());
+        written.chain(kept).chain(copied).any(|other| is_same_path(other, path))
     }
 
-    /// Adds the texts of a document, apart from the main one, to be written into `folder`.
+    /// Adds the texts of a document, apart from the main one, to be written into `folder`. `earlier` are copies that the document wrote before, which
+    /// are replaced unless they changed since.
     ///
     /// # Errors
     ///
-    /// The path of another file of this name.
-    fn add_texts(&mut self, texts: &TextFiles, folder: &Path) -> Result<(), String> {
+    /// The path of another file of this name, or of one that is outside of the folder through links.
+    fn add_texts(&mut self, texts: &TextFiles, folder: &Path, earlier: &BesideStamps) -> Result<(), String> {
         for TextFile { name, text } in texts.list().iter().skip(1) {
             let (path, bytes) = (folder.join(&**name), text.as_bytes());
-            if is_same(bytes, bytes.len() as u64, &path) {
-                self.kept.push(path);
-            } else if path.symlink_metadata().is_ok() {
+            ensure_inside(folder, &path)?;
+            let there = FileStamp::take(&RealFiles, &path).ok();
+            if let Some(stamp) = there.filter(|stamp| stamp.is_of(bytes)) {
+                self.kept.push((path, stamp));
+            } else if path.symlink_metadata().is_ok() && earlier.unchanged(&path).is_none() {
                 return Err(other_file(&path));
             } else {
                 self.written.push((path, bytes.to_vec()));

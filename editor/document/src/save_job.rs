@@ -6,6 +6,7 @@
 //! 4. The document records the end. Edits made since the beginning are unsaved.
 
 use super::Cancel;
+use super::beside::BesideStamps;
 use super::editable::Editable;
 use super::fault::{FaultInjection, FaultPoint};
 use super::history::Edited;
@@ -69,6 +70,8 @@ pub(super) struct FailedWrite {
     pub(super) reason: SaveFailure,
     /// The file of the document with the files that were written before; `None` where they are files of a copy.
     pub(super) partly: Option<Box<Editable>>,
+    /// The files in other folders that this save and earlier ones wrote.
+    pub(super) copies: BesideStamps,
 }
 
 /// A save that has succeeded.
@@ -136,6 +139,11 @@ impl SaveInput {
 }
 
 impl PreparedSave {
+    /// Returns whether the files that a scene needs are copied along.
+    pub(super) fn copies_along(&self) -> bool {
+        self.input.copies_along()
+    }
+
     pub(super) fn target(&self) -> SaveTarget {
         self.input.target
     }
@@ -182,8 +190,9 @@ impl PreparedSave {
         let saved = match input.editable.write(input.edited.adapter(), files, how, cancel) {
             Ok(saved) => saved,
             Err(reason) => {
+                let copies = input.editable.copies.clone();
                 let partly = (target == SaveTarget::Own).then(|| Box::new(input.editable));
-                return Err(FailedWrite { reason, partly });
+                return Err(FailedWrite { reason, partly, copies });
             }
         };
         let journal = if target == SaveTarget::Other { input.begin_journal() } else { None };

@@ -1,5 +1,6 @@
 //! Saving the open document.
 
+use super::beside::BesideStamps;
 use super::fault::FaultInjection;
 use super::open::Open;
 use super::recorded::EditsOrigin;
@@ -65,7 +66,7 @@ pub struct SavedFile {
     pub beside: usize,
     /// Whether it is a copy: the document is as unsaved as before.
     pub copy: bool,
-    /// Attributes of the old file that were lost, and content of the model that the format does not store, one sentence each. Later saves
+    /// Files that were not copied, attributes of the old file that were lost, and content of the model that the format does not store, one sentence each. Later saves
     /// of the same file do not repeat the latter.
     pub notices: Vec<String>,
     /// The action that follows.
@@ -93,17 +94,19 @@ pub(super) struct FailedSave {
     pub(super) reason: NotSaved,
     /// The file of the document, where some of its files were written before.
     pub(super) partly: Option<Box<Editable>>,
+    /// The files in other folders that this save and earlier ones wrote; `None` where it wrote none.
+    pub(super) copies: Option<BesideStamps>,
 }
 
 impl From<NotSaved> for FailedSave {
     fn from(reason: NotSaved) -> Self {
-        Self { reason, partly: None }
+        Self { reason, partly: None, copies: None }
     }
 }
 
 impl From<FailedWrite> for FailedSave {
-    fn from(FailedWrite { reason, partly }: FailedWrite) -> Self {
-        Self { reason: reason.into(), partly }
+    fn from(FailedWrite { reason, partly, copies }: FailedWrite) -> Self {
+        Self { reason: reason.into(), partly, copies: Some(copies) }
     }
 }
 
@@ -236,12 +239,16 @@ impl Open {
         }
     }
 
-    /// Ends a save that failed. `partly` is the file of the document, where some of its files were written before.
-    pub(super) fn save_failed(&mut self, partly: Option<Box<Editable>>) {
+    /// Ends a save that failed. `partly` is the file of the document, where some of its files were written before, and `copies` are the files
+    /// in other folders that were.
+    pub(super) fn save_failed(&mut self, partly: Option<Box<Editable>>, copies: Option<BesideStamps>) {
         self.edited.end_save(false);
         self.journal_writer.end_save(None);
         if let Some(editable) = partly {
             self.editable = Ok(*editable);
+        }
+        if let (Ok(editable), Some(copies)) = (&mut self.editable, copies) {
+            editable.copies = copies;
         }
     }
 
@@ -259,6 +266,8 @@ impl Open {
         notices.extend(lost.iter().filter(|text| !is_known(text)).cloned());
         if !copy {
             self.edited.end_save(true);
+        } else if let Ok(own) = &mut self.editable {
+            own.copies = editable.copies.clone();
         }
         if !copy {
             self.lost = lost;

@@ -1,13 +1,14 @@
 //! Files that a scene is to get: those from outside of its folder are copied into it, because a scene names only what is in its folder.
 //! Everything here reads files and is called in jobs.
 
-use super::copied_files::{CopiedFiles, is_same};
+use super::beside::BesideStamps;
+use super::copied_files::{CopiedFiles, ensure_inside, is_same};
 use super::folder::{checked, open_file};
 use super::needed_files::NeededFiles;
 use super::source::file_name;
 use super::{Cancel, Folder, make_folder, read_file};
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{ExpectedFile, RealFiles, SaveOptions, save};
+use dragonfly_store::{ExpectedFile, FileStamp, RealFiles, SaveOptions, save};
 use std::path::{Component, Path, PathBuf};
 
 /// Number of names that are tried for a copy.
@@ -46,6 +47,10 @@ pub struct SceneFile {
     pub beside: Vec<String>,
     /// The missing file in whose place it is.
     pub replaces: Option<MissingFile>,
+    /// Hash of a model in the folder of the scene; `None` for others.
+    pub hash: Option<u64>,
+    /// Number of files that were written to copy it into the folder of the scene.
+    pub written: usize,
 }
 
 /// Files that a scene is to get.
@@ -70,7 +75,7 @@ impl SceneFileKind {
 impl SceneFile {
     /// Returns a file of which nothing is known.
     pub fn new(kind: SceneFileKind, path: PathBuf) -> Self {
-        Self { kind, path, name: None, beside: Vec::new(), replaces: None }
+        Self { kind, path, name: None, beside: Vec::new(), replaces: None, hash: None, written: 0 }
     }
 }
 
@@ -133,8 +138,10 @@ impl SceneFiles {
         let mut written = 0;
         for file in self.files.iter_mut().filter(|file| file.name.is_none()) {
             let name = file.place(&self.folder)?;
-            written += file.copy_to(&self.folder.join(&name), cancel)?;
+            file.written = file.copy_to(&self.folder, &name, cancel)?;
+            written += file.written;
             root.path_of(&name).map_err(|error| format!("{name} {error}"))?;
+            file.hash = file.hash_of(&self.folder.join(&name))?;
             file.name = Some(name);
         }
         Ok(written)
@@ -151,10 +158,21 @@ impl SceneFile {
         let title = file_name(&self.path);
         open_file(&self.path).map_err(|error| format!("{title} {error}"))?;
         self.name = name_inside(folder, root, &self.path);
-        if self.name.is_none() && self.kind == SceneFileKind::Model {
+        if self.name.is_some() {
+            self.hash = self.hash_of(&self.path)?;
+        } else if self.kind == SceneFileKind::Model {
             self.beside = beside(&self.path, cancel)?;
         }
         Ok(())
+    }
+
+    /// Returns the hash of a model; `None` for other kinds.
+    fn hash_of(&self, path: &Path) -> Result<Option<u64>, String> {
+        if self.kind != SceneFileKind::Model {
+            return Ok(None);
+        }
+        let stamp = FileStamp::take(&RealFiles, path);
+        stamp.map(|stamp| Some(stamp.hash)).map_err(|error| format!("{}: {error}", path.display()))
     }
 
     /// Returns the name of its copy, relative to the folder of the scene: it is free there, or that of the same file.
@@ -196,18 +214,24 @@ impl SceneFile {
         })
     }
 
-    /// Writes its copy, and those of the files that it needs. Returns the number of files.
-    fn copy_to(&self, target: &Path, cancel: &Cancel) -> Result<usize, String> {
+    /// Writes its copy, called `name` in the folder of the scene, and those of the files that it needs. Returns the number of files.
+    fn copy_to(&self, folder: &Path, name: &str, cancel: &Cancel) -> Result<usize, String> {
         let title = file_name(&self.path);
+        let target = &folder.join(name);
+        ensure_inside(folder, target)?;
         let from = Folder::of(&self.path).map_err(|error| format!("{title} {error}"))?;
         let to = target.parent().unwrap_or(target);
-        let beside = CopiedFiles::find(from, to, self.beside.iter().cloned(), cancel)?;
+        let earlier = BesideStamps::default();
+        let beside = CopiedFiles::find(from, to, self.beside.iter().cloned(), &earlier, cancel)?;
         if let Some(missing) = beside.notices().next() {
             return Err(missing);
         }
         let mut written = 0;
         // Last, so that it never refers to a file that does not exist.
-        beside.write(cancel, |_, _, _| written += 1)?;
+        beside.write(None, cancel, |_, _, _| written += 1)?;
+        if cancel.is_cancelled() {
+            return Err("it was cancelled".to_owned());
+        }
         let bytes = read_file(&self.path, FILE_BYTES).map_err(|error| format!("{title} {error}"))?;
         if is_same(&*bytes, bytes.len() as u64, target) {
             return Ok(written);
@@ -240,7 +264,7 @@ fn name_inside(folder: &Path, root: &Folder, path: &Path) -> Option<String> {
 }
 
 /// Returns a path relative to a folder that contains it, with `/`, without looking at the disk; `None` where it is outside.
-pub fn name_below(folder: &Path, path: &Path) -> Option<String> {
+fn name_below(folder: &Path, path: &Path) -> Option<String> {
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (folder, path) = (absolute(folder), absolute(path));
     let parts: Option<Vec<&str>> = path.strip_prefix(&folder).ok()?.components().map(part).collect();

@@ -2,6 +2,7 @@
 
 use super::adapter::{TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
+use super::editable::stamp_of;
 use super::source::{LoadError, file_name};
 use super::{FileAccessError, read_file};
 use dragonfly_anim::format::AssetFs;
@@ -94,14 +95,7 @@ fn read_stamped(path: &Path) -> Result<(Arc<str>, Option<FileStamp>), LoadError>
     let wrong = |reason: String| LoadError::Format { title: file_name(path), reason };
     let before = FileStamp::before(&RealFiles, path).ok();
     let bytes = read_file(path, MOST_BYTES as u64).map_err(failed)?;
-    let stamp = match before.map(|before| FileStamp::of_read(&RealFiles, path, &before, &bytes)) {
-        Some(Ok(stamp)) => Some(stamp),
-        Some(Err(error)) if error.kind() == std::io::ErrorKind::WouldBlock => {
-            return Err(wrong("the file changed while it was read; open it again".to_owned()));
-        }
-        // A change that cannot be detected now will be noticed when the file is saved.
-        Some(Err(_)) | None => None,
-    };
+    let stamp = stamp_of(Some(path).zip(before.as_ref()), &bytes).map_err(wrong)?;
     Ok((text_of(bytes).map_err(wrong)?, stamp))
 }
 

@@ -1,7 +1,7 @@
 //! The editor's run-time: opens models, and passes what the user does to the threads that do it (thesis §3.2.4.5).
 
 use super::base_runtime::{BaseRuntime, Parts};
-use super::file_dialog::{self, Answer, Purpose};
+use super::file_dialog::Answer;
 use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, HoverPoint};
 use super::interface::Interface;
@@ -9,15 +9,14 @@ use super::interface_receiver::interface_address;
 use super::model_looker::{self, LookedModels};
 use super::options::Options;
 use super::reference_loader::ReferenceAnswer;
-use super::scene_files::{self, SceneFilesAnswer};
+use super::scene_files::{self, FileJobs, SceneFilesAnswer};
 use super::scene_maker::{self, SceneAnswer};
 use super::scene_sounds::SceneSoundAnswer;
 use super::sound_loader::SoundAnswer;
 use super::sound_player::SamplesAnswer;
-use super::{file_actions, replies, state_trace};
+use super::{file_actions, replies};
 use crate::panels::status::MessageSeverity;
 use crate::panels::window_status::DeviceStatus;
-use crate::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{Document, DocumentHandle, DocumentReply, Setup, Source};
 use dragonfly_picture::GraphicsReply;
@@ -50,20 +49,22 @@ pub(super) struct Running {
     sounds: Address<SoundAnswer>,
     scene_sounds: Address<SceneSoundAnswer>,
     samples: Address<SamplesAnswer>,
-    scenes: Address<SceneAnswer>,
-    looked: Address<LookedModels>,
-    scene_files: Address<SceneFilesAnswer>,
+    pub(super) scenes: Address<SceneAnswer>,
+    pub(super) looked: Address<LookedModels>,
+    pub(super) scene_files: Address<SceneFilesAnswer>,
+    /// The jobs that look at files for a scene or copy them. They are cancelled when the program ends.
+    pub(super) file_jobs: FileJobs,
     graphics_sync: GraphicsSync,
     /// Number of questions sent to the graphics thread.
-    tickets: u64,
+    pub(super) tickets: u64,
     /// The newest question about a click or a box.
-    asked: Option<(u64, Asked)>,
+    pub(super) asked: Option<(u64, Asked)>,
     hover: Hover,
 }
 
 /// A question about a click or a box.
 #[derive(Clone, Copy, Debug)]
-enum Asked {
+pub(super) enum Asked {
     Click(egui::Pos2, Choice),
     Region(Choice),
 }
@@ -102,7 +103,11 @@ impl EditorRuntime {
             None => return,
         };
         for effect in effects {
-            self.effect(effect);
+            if let Some(running) = &mut self.running
+                && running.effect(effect)
+            {
+                self.quit.set(true);
+            }
         }
         if let Some(running) = &mut self.running {
             {
@@ -115,115 +120,6 @@ impl EditorRuntime {
             let (state, scale) = (interface.state.read(), interface.pixels_per_point());
             running.graphics_sync.update(&running.parts.graphics, &state, scale, interface.is_dark());
         }
-    }
-
-    fn effect(&mut self, effect: Effect) {
-        let Some(running) = &mut self.running else { return };
-        if let Effect::File(action) = effect {
-            if running.file_action(action) {
-                self.quit.set(true);
-            }
-            return;
-        }
-        let graphics = &running.parts.graphics;
-        let mut interface = running.parts.interface.borrow_mut();
-        match effect {
-            // Handled above.
-            Effect::File(_) => {}
-            // `take_effects` has replaced these by other effects.
-            Effect::Change(_)
-            | Effect::Changes(_)
-            | Effect::Cut(..)
-            | Effect::CancelDrag
-            | Effect::ReleaseDrag => {}
-            Effect::OpenDialog | Effect::CompareDialog if interface.asking => {
-                interface.state.say(MessageSeverity::Info, "The dialog for opening files is open already");
-            }
-            Effect::Choose(..) if interface.asking => {
-                interface.state.say(MessageSeverity::Info, "A file dialog is open already");
-            }
-            Effect::Choose(choice, folder) => {
-                match file_dialog::ask(Purpose::Choose(choice), folder, running.answers.clone()) {
-                    Ok(()) => interface.asking = true,
-                    Err(error) => {
-                        let text = format!("The file dialog could not be opened: {error}");
-                        interface.state.say(MessageSeverity::Error, text);
-                    }
-                }
-            }
-            Effect::OpenDialog | Effect::CompareDialog => {
-                let compares = effect == Effect::CompareDialog;
-                let purpose = if compares { Purpose::Compare } else { Purpose::Open };
-                let recent = interface.state.read().settings.recent.first();
-                let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);
-                match file_dialog::ask(purpose, folder, running.answers.clone()) {
-                    Ok(()) => interface.asking = true,
-                    Err(error) => {
-                        let text = format!("The file dialog could not be opened: {error}");
-                        interface.state.say(MessageSeverity::Error, text);
-                    }
-                }
-            }
-            Effect::Send(number, change) => {
-                if let Some(document) = &running.document {
-                    state_trace::asked(&change);
-                    document.change_numbered(number, change);
-                }
-            }
-            Effect::Copy(text) => interface.copy(text),
-            Effect::PastePose { mirrored } => {
-                let text = interface.clipboard();
-                let effect = interface.state.execute(Request::PastePose { text, mirrored });
-                interface.effects.extend(effect);
-            }
-            Effect::Pick(at, choice) => {
-                running.tickets += 1;
-                running.asked = Some((running.tickets, Asked::Click(at, choice)));
-                let scale = interface.pixels_per_point();
-                graphics.pick_all([at.x * scale, at.y * scale], running.tickets);
-            }
-            Effect::Catch(region, choice) => {
-                running.tickets += 1;
-                running.asked = Some((running.tickets, Asked::Region(choice)));
-                graphics.catch(region, running.tickets);
-            }
-            Effect::FullScreen => interface.toggle_full_screen(),
-            Effect::TogglePanel(id) => interface.toggle_panel(id),
-            Effect::ShowPanel(id) => interface.show_panel(id),
-            Effect::ResetLayout => interface.reset_layout(),
-            Effect::RetryDevice => graphics.resume(),
-            Effect::NewProject(script) => {
-                if let Err(error) = scene_maker::make_project(script, &running.scenes) {
-                    interface.state.say(MessageSeverity::Error, format!("No project was made: {error}"));
-                }
-            }
-            Effect::DemoScene(folder) => {
-                if let Err(error) = scene_maker::make_demo(folder, &running.scenes) {
-                    interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
-                }
-            }
-            Effect::LookAtModels(unknown) => {
-                if let Err(error) = model_looker::look(*unknown, &running.looked) {
-                    interface.state.say(MessageSeverity::Error, format!("Nothing was added: {error}"));
-                }
-            }
-            Effect::LookAtFiles(wanted) => {
-                if let Err(error) = scene_files::look(wanted, &running.scene_files) {
-                    interface.state.say(MessageSeverity::Error, format!("No file was read: {error}"));
-                }
-            }
-            Effect::CopyFiles(wanted) => {
-                if let Err(error) = scene_files::copy(wanted, &running.scene_files) {
-                    interface.state.say(MessageSeverity::Error, format!("Nothing was copied: {error}"));
-                }
-            }
-            Effect::NewScene(model) => {
-                if let Err(error) = scene_maker::make(model, &running.scenes) {
-                    interface.state.say(MessageSeverity::Error, format!("No scene was made: {error}"));
-                }
-            }
-        }
-        interface.redraw();
     }
 }
 
@@ -271,6 +167,7 @@ impl BaseRuntime for EditorRuntime {
             scenes,
             looked,
             scene_files,
+            file_jobs: FileJobs::default(),
             leaving: false,
             graphics_sync: GraphicsSync::default(),
             tickets: 0,

@@ -10,6 +10,7 @@
 mod accessibility_trace;
 mod base_runtime;
 mod editor_runtime;
+mod effects;
 mod event;
 mod file_actions;
 mod file_dialog;

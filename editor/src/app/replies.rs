@@ -10,7 +10,7 @@ use crate::panels::open_model::Loading;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
 use dragonfly_anim::model_unit::ModelUnit;
-use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, View};
+use dragonfly_document::{Change, DocumentReply, LoadStage, LoadedModel, SavedFile, View};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -46,8 +46,12 @@ pub(super) fn show(interface: &mut Interface, reply: DocumentReply) {
             let lines: Vec<String> = unfit.iter().map(ToString::to_string).collect();
             state.ask(UnfitQuestion { lines: Arc::from(lines) }.into());
         }
-        DocumentReply::Saved(saved) => show_saved(interface, saved),
+        DocumentReply::Saved(saved) => {
+            end_copies(state);
+            show_saved(interface, saved);
+        }
         DocumentReply::NotSaved(order, reason) => {
+            end_copies(state);
             let effect = state.not_saved(order, reason);
             interface.effects.extend(effect);
         }
@@ -86,6 +90,7 @@ pub(super) fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::Notice(text) => state.say(MessageSeverity::Info, text),
         DocumentReply::Warning(text) => state.say(MessageSeverity::Warning, text),
         DocumentReply::Lost => {
+            end_copies(state);
             state.document_lost();
             state.say(MessageSeverity::Error, "An internal error closed the document");
         }
@@ -129,6 +134,13 @@ fn opened(interface: &mut Interface, loaded: &LoadedModel) {
     say_passed_over(state, passed_over);
     let edits = std::mem::take(&mut interface.edits).into_iter();
     interface.effects.extend(edits.map(|edit| Effect::Change(Change::Edit(edit, None))));
+}
+
+/// Notes that no files are being copied into another folder any more.
+fn end_copies(state: &mut State) {
+    if state.read().loading.is_some_and(|loading| loading.progress.stage == LoadStage::Copying) {
+        state.set_loading(None);
+    }
 }
 
 fn show_saved(interface: &mut Interface, saved: SavedFile) {

@@ -67,7 +67,11 @@ impl SceneSoundLoader {
             // Before it is read, so that a change while it is read is noticed the next time.
             let stamp = file.stamp();
             let is_same = stamp.is_some() && stamp == known;
-            let read = (!is_same).then(|| (stamp, file.peaks(job.cancel_flag())));
+            let read = (!is_same).then(|| {
+                let peaks = file.peaks(job.cancel_flag());
+                // A file that changed while it was read is read again.
+                (stamp.filter(|stamp| file.stamp() == Some(*stamp)), peaks)
+            });
             SceneSoundAnswer { opened, source: name, folder: place, read }
         };
         let name = source.clone();

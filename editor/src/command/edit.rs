@@ -255,7 +255,7 @@ pub(super) fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Resul
         editable.files(plan, output, &cancel).map_err(Failure::Input)?;
     copied.notices().for_each(|notice| tell(format_args!("{notice}")));
     let copy = |path: &Path, bytes, _| written.push(Written { path: path.display().to_string(), bytes });
-    copied.write(&cancel, copy).map_err(Failure::Input)?;
+    copied.write(None, &cancel, copy).map_err(Failure::Input)?;
     for (at, (path, bytes)) in files.iter().enumerate() {
         // The folder of the model, the last file, exists; folders of the files that it refers to are created.
         if at + 1 < files.len() {

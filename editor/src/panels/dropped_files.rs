@@ -3,6 +3,7 @@
 use dragonfly_document::{LoadedModel, MissingFile, SceneFiles};
 use glam::DVec3;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// The place at which files were dropped.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +45,19 @@ pub struct DroppedModels {
     pub place: DropPlace,
     /// The sounds as the script names them.
     pub sounds: Vec<String>,
+    /// The hashes of the models, as the script names them.
+    pub hashes: Vec<(String, u64)>,
+    /// The scene that gets them.
+    pub target: SceneTarget,
+}
+
+/// The scene for which a job works, so that its answer is not used in another one.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SceneTarget {
+    /// A number that grows when another document is opened.
+    pub opened: u64,
+    /// The script that is shown, of a project; `None` for a script alone.
+    pub script: Option<Arc<str>>,
 }
 
 /// Files that were dropped, whose models have to be read first.
@@ -57,6 +71,10 @@ pub struct UnknownModels {
     pub place: DropPlace,
     /// The sounds as the script names them.
     pub sounds: Vec<String>,
+    /// The hashes of the models, as the script names them.
+    pub hashes: Vec<(String, u64)>,
+    /// The scene that gets them.
+    pub target: SceneTarget,
 }
 
 /// The use of files that a scene gets.
@@ -81,4 +99,6 @@ pub struct WantedFiles {
     pub others: Vec<MissingFile>,
     /// What they are for.
     pub used: FileUse,
+    /// The scene that gets them.
+    pub target: SceneTarget,
 }

@@ -163,7 +163,7 @@ impl Session {
         let mut prepared = match prepare(input, &cancel) {
             Ok(prepared) => prepared,
             Err(reason) => {
-                self.open.save_failed(None);
+                self.open.save_failed(None, None);
                 return Err(reason);
             }
         };
@@ -171,8 +171,8 @@ impl Session {
         let (changes, lost) = (changes(prepared.changes()), prepared.lost().to_vec());
         let written = match prepared.write(&cancel) {
             Ok(written) => written,
-            Err(FailedWrite { reason, partly }) => {
-                self.open.save_failed(partly);
+            Err(FailedWrite { reason, partly, copies }) => {
+                self.open.save_failed(partly, Some(copies));
                 return Err(reason.to_string());
             }
         };

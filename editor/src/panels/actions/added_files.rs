@@ -1,8 +1,8 @@
 //! Files of the folder of the scene that become a part of it: models as roles and props, and sounds.
 
 use super::scene_gizmo::joined;
-use super::scene_text::{add_all, gesture};
-use crate::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, UnknownModels};
+use super::scene_text::{add_all, step, with_hashes};
+use crate::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, SceneTarget, UnknownModels};
 use crate::panels::request::Effect;
 use crate::panels::scene::{ChangedThings, NewModel, NewThing, new_thing_splices, with_new_sound};
 use crate::panels::status::MessageSeverity;
@@ -13,29 +13,29 @@ use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneModel;
 use dragonfly_document::edit::ScriptLabel;
 use glam::DVec3;
-use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Adds files of the folder of the scene to it: models with their names, and the names of sounds, which begin at the playhead. Models that the scene
-/// does not know yet are looked at first. Models with takes or a skin become roles, others props, unless `is_role` says what they are to be.
-pub(super) fn add(
-    workspace: &mut Workspace,
-    models: Vec<(PathBuf, String)>,
-    sounds: Vec<String>,
-    place: DropPlace,
-    is_role: Option<bool>,
-) -> Option<Effect> {
+/// Adds files of the folder of the scene to it: models, and sounds, which begin at the playhead. Models that the scene does not know yet are
+/// looked at first. Models with takes or a skin become roles, others props, unless the user said what they are to be.
+pub(super) fn add(workspace: &mut Workspace, unknown: UnknownModels) -> Option<Effect> {
     let known: Option<Vec<DroppedModel>> =
-        models.iter().map(|(_, name)| known(workspace, name, is_role)).collect();
+        unknown.models.iter().map(|(_, name)| known(workspace, name, unknown.is_role)).collect();
     match known {
-        Some(models) => add_known(workspace, &DroppedModels { models, place, sounds }),
-        None => Some(Effect::LookAtModels(Box::new(UnknownModels { models, is_role, place, sounds }))),
+        Some(models) => {
+            let UnknownModels { place, sounds, hashes, target, .. } = unknown;
+            add_known(workspace, &DroppedModels { models, place, sounds, hashes, target })
+        }
+        None => Some(Effect::LookAtModels(Box::new(unknown))),
     }
 }
 
 /// Adds files to the scene whose models are known, in one step. A model without takes and skins is a prop. Models on a bone are props that it holds from the
 /// start of the scene, in its place; elsewhere the first one is put under the pointer, and each further one a meter to the right of the one before.
 pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> Option<Effect> {
+    if target_of(workspace) != dropped.target {
+        workspace.say(MessageSeverity::Warning, OTHER_SCENE);
+        return None;
+    }
     if let (DropPlace::Bone(bone), false) = (&dropped.place, dropped.models.is_empty()) {
         return hold(workspace, dropped, bone);
     }
@@ -49,7 +49,7 @@ pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> O
         if dropped.is_figure { NewThing::Role(model) } else { NewThing::Prop(model) }
     };
     let things: Vec<NewThing> = dropped.models.iter().zip(places).map(thing).collect();
-    let effect = add_all(workspace, &things, &dropped.sounds);
+    let effect = add_all(workspace, &things, &dropped.sounds, &dropped.hashes);
     if effect.is_some() {
         say_scales(workspace, &dropped.models);
     }
@@ -71,7 +71,7 @@ fn say_scales(workspace: &mut Workspace, models: &[DroppedModel]) {
 fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Option<Effect> {
     let mut added = Vec::new();
     let at = workspace.read().scene_time();
-    let effect = gesture(workspace, ScriptLabel::AddProp, ChangedThings::None, |base| {
+    let effect = step(workspace, |base| {
         let mut script = Arc::clone(&base.script);
         for model in &dropped.models {
             let prop = NewModel { file: model.name.clone(), at: None, scale: model.scale };
@@ -86,13 +86,25 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
         for sound in &dropped.sounds {
             script = Arc::new(with_new_sound(&script, sound, at)?);
         }
-        Ok(script.tree().text().to_string())
+        let text = script.tree().text().to_string();
+        let change = base.step(text, ScriptLabel::AddProp, ChangedThings::None);
+        Ok(with_hashes(change, base, &dropped.hashes))
     });
     if effect.is_some() {
         workspace.scene.await_things(added);
         workspace.say(MessageSeverity::Info, format!("{bone} holds it; Move and Rotate change how"));
     }
     effect
+}
+
+/// The message when the answer of a job is for a scene that is not shown any more.
+pub(super) const OTHER_SCENE: &str = "The scene is not open any more: its files were not added";
+
+/// Returns the scene that is shown.
+pub(super) fn target_of(workspace: &Workspace) -> SceneTarget {
+    let read = workspace.read();
+    let script = read.scene().filter(|scene| scene.is_of_project()).map(|scene| Arc::clone(&scene.name));
+    SceneTarget { opened: read.scene_editing.sounds().opened(), script }
 }
 
 /// Returns what is known of a model that the scene has read; `None` for others.

@@ -100,9 +100,21 @@ pub(in crate::panels) fn saved(workspace: &mut Workspace, saved: &SavedFile) {
         1 => " and one further file".to_owned(),
         files => format!(" and {files} further files"),
     };
-    let text = format!("{what} {name}{others}");
+    // Only the newest message is shown, so that it includes the warnings before it.
+    let (level, warnings) = match saved.notices.as_slice() {
+        [] => (MessageSeverity::Info, String::new()),
+        [notice] => (MessageSeverity::Warning, format!(", with a warning: {notice}")),
+        [first, more @ ..] => {
+            let count = more.len() + 1;
+            (
+                MessageSeverity::Warning,
+                format!(", with {count} warnings: {first}; the others are among the messages"),
+            )
+        }
+    };
+    let text = format!("{what} {name}{others}{warnings}");
     match workspace.read().pending_poses().1 {
-        0 => workspace.say(MessageSeverity::Info, text),
+        0 => workspace.say(level, text),
         1 => workspace.say(
             MessageSeverity::Warning,
             format!("{text}, but 1 pending pose is not in the file: key it first"),

@@ -1,38 +1,31 @@
-//! Files that the scene gets: dropped or chosen ones, and those that were missing. What is outside of its folder is copied into it first.
+//! Files that the scene gets: dropped or chosen ones, and those that were missing. What is outside of its folder, also through links, is copied into
+//! it first.
 
-use super::scene_text::{add, step};
+use super::added_files::{OTHER_SCENE, target_of};
+use super::scene_text::step;
 use super::{added_files, files};
 use crate::panels::dialogs::{CopyQuestion, MissingQuestion};
-use crate::panels::dropped_files::{FileUse, WantedFiles};
+use crate::panels::dropped_files::{DropPlace, FileUse, UnknownModels, WantedFiles};
 use crate::panels::file_choice::FileChoice;
 use crate::panels::request::Effect;
-use crate::panels::scene::{ChangedThings, NewThing};
+use crate::panels::scene::ChangedThings;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, spliced_script};
 use dragonfly_document::edit::ScriptLabel;
-use dragonfly_document::{
-    FoundFiles, MissingFile, SceneFile, SceneFileKind, SceneFiles, name_below, name_found_files,
-};
+use dragonfly_document::{FoundFiles, MissingFile, SceneFile, SceneFileKind, SceneFiles, name_found_files};
 use std::path::PathBuf;
 
-/// Gives files to the scene. They are used at once if all are in its folder.
+/// Gives files to the scene. A job looks at them first, because whether they are in its folder depends on the disk.
 pub(super) fn want(
     workspace: &mut Workspace,
     wanted: Vec<(SceneFileKind, PathBuf)>,
     used: FileUse,
 ) -> Option<Effect> {
     let folder = folder(workspace)?;
-    let file = |(kind, path): (SceneFileKind, PathBuf)| {
-        let name = name_below(&folder, &path);
-        SceneFile { name, ..SceneFile::new(kind, path) }
-    };
-    let files = wanted.into_iter().map(file).collect();
-    let wanted = Box::new(WantedFiles { files: SceneFiles { folder, files }, others: Vec::new(), used });
-    match wanted.files.are_inside() {
-        true => use_files(workspace, &wanted),
-        false => Some(Effect::LookAtFiles(wanted)),
-    }
+    let files = wanted.into_iter().map(|(kind, path)| SceneFile::new(kind, path)).collect();
+    let (files, target) = (SceneFiles { folder, files }, target_of(workspace));
+    Some(Effect::LookAtFiles(Box::new(WantedFiles { files, others: Vec::new(), used, target })))
 }
 
 /// Returns the folder of the scene; `None`, with a message, where it is in none.
@@ -58,25 +51,36 @@ pub(in crate::panels) fn answered(
     wanted: Box<WantedFiles>,
     copied: usize,
 ) -> Option<Effect> {
-    if folder_of_scene(workspace).as_ref() != Some(&wanted.files.folder) {
-        workspace.say(MessageSeverity::Warning, "The scene is not open any more: its files were not added");
+    let is_here = folder_of_scene(workspace).as_ref() == Some(&wanted.files.folder);
+    if !is_here || target_of(workspace) != wanted.target {
+        workspace.say(MessageSeverity::Warning, OTHER_SCENE);
         return None;
     }
     if !wanted.files.are_inside() {
         files::ask(workspace, CopyQuestion { wanted }.into());
         return None;
     }
+    let before = workspace.status.said();
     let effect = use_files(workspace, &wanted);
     if copied > 0 {
-        let names: Vec<&str> = wanted.files.files.iter().filter_map(|file| file.name.as_deref()).collect();
+        // That message has the reason why the files were not used.
+        let is_refused = effect.is_none() && workspace.status.said() > before;
+        let refusal = workspace.status.last().filter(|_| is_refused).map(|message| message.text.clone());
+        let files = wanted.files.files.iter().filter(|file| file.written > 0);
+        let names: Vec<&str> = files.filter_map(|file| file.name.as_deref()).collect();
         let more = match copied.saturating_sub(names.len()) {
             0 => String::new(),
             1 => " and one more file".to_owned(),
             more => format!(" and {more} more files"),
         };
-        let text =
-            format!("Copied {}{more} into the folder of the scene; Undo leaves the copies", names.join(", "));
-        workspace.say(MessageSeverity::Info, text);
+        let text = format!("Copied {}{more} into the folder of the scene", names.join(", "));
+        match refusal {
+            None => workspace.say(MessageSeverity::Info, format!("{text}; Undo leaves the copies")),
+            Some(reason) => {
+                let text = format!("{text}, but the scene was not changed: {reason}");
+                workspace.say(MessageSeverity::Warning, text);
+            }
+        }
     }
     effect
 }
@@ -89,17 +93,24 @@ pub(super) fn copy(workspace: &mut Workspace, wanted: Box<WantedFiles>) -> Effec
 
 /// Uses files that are in the folder of the scene.
 fn use_files(workspace: &mut Workspace, wanted: &WantedFiles) -> Option<Effect> {
-    let WantedFiles { files: SceneFiles { folder, files }, used, .. } = wanted;
+    let WantedFiles { files: SceneFiles { folder, files }, used, target, .. } = wanted;
+    let hashes: Vec<(String, u64)> =
+        files.iter().filter_map(|file| file.name.clone().zip(file.hash)).collect();
     let named =
         |kind| files.iter().filter(move |file| file.kind == kind).filter_map(|file| file.name.clone());
     match used {
         FileUse::Add(place) => {
             let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
-            added_files::add(workspace, models, named(SceneFileKind::Sound).collect(), place.clone(), None)
+            let sounds = named(SceneFileKind::Sound).collect();
+            let (place, target) = (DropPlace::clone(place), target.clone());
+            let unknown = UnknownModels { models, is_role: None, place, sounds, hashes, target };
+            added_files::add(workspace, unknown)
         }
         FileUse::Role | FileUse::Prop => {
             let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
-            added_files::add(workspace, models, Vec::new(), DropPlace::Nowhere, Some(*used == FileUse::Role))
+            let (is_role, place) = (Some(*used == FileUse::Role), DropPlace::Nowhere);
+            let (sounds, target) = (Vec::new(), target.clone());
+            added_files::add(workspace, UnknownModels { models, is_role, place, sounds, hashes, target })
         }
         FileUse::Find => name_found(workspace, files),
     }
@@ -108,6 +119,12 @@ fn use_files(workspace: &mut Workspace, wanted: &WantedFiles) -> Option<Effect> 
 /// Asks where a missing file is now.
 pub(super) fn find(workspace: &mut Workspace, missing: MissingFile) -> Option<Effect> {
     let folder = folder(workspace)?;
+    let included =
+        workspace.read().scene().and_then(|scene| scene.included_place_of(&missing).map(str::to_owned));
+    if let Some(file) = included {
+        workspace.say(MessageSeverity::Warning, missing.named_in(&file));
+        return None;
+    }
     let choice = match missing.kind {
         SceneFileKind::Model => FileChoice::MissingModel,
         SceneFileKind::Sound => FileChoice::MissingSound,
@@ -131,18 +148,18 @@ pub(super) fn found(workspace: &mut Workspace, path: PathBuf) -> Option<Effect> 
     let others = missing_files(workspace).into_iter().filter(|other| *other != missing).collect();
     let file = SceneFile::new(missing.kind, path);
     let files = vec![SceneFile { replaces: Some(missing), ..file }];
-    Some(Effect::LookAtFiles(Box::new(WantedFiles {
-        files: SceneFiles { folder, files },
-        others,
-        used: FileUse::Find,
-    })))
+    let (files, target) = (SceneFiles { folder, files }, target_of(workspace));
+    Some(Effect::LookAtFiles(Box::new(WantedFiles { files, others, used: FileUse::Find, target })))
 }
 
-/// Returns the models and sounds of the scene that are missing.
+/// Returns the models and sounds of the scene that are missing, apart from those that only included files name.
 fn missing_files(workspace: &Workspace) -> Vec<MissingFile> {
     let read = workspace.read();
     let models = read.scene().into_iter().flat_map(|scene| scene.missing_models());
-    models.chain(read.scene_editing.sounds().missing()).collect()
+    let all = models.chain(read.scene_editing.sounds().missing());
+    let is_named_here =
+        |missing: &MissingFile| read.scene().is_none_or(|scene| scene.included_place_of(missing).is_none());
+    all.filter(is_named_here).collect()
 }
 
 /// Names the files that were found in the texts of the scene, in one step.

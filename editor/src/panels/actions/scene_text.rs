@@ -7,8 +7,8 @@ use crate::panels::scene::{
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
-use dragonfly_document::Change;
 use dragonfly_document::edit::ScriptLabel;
+use dragonfly_document::{Change, listed_models};
 use std::sync::Arc;
 
 /// Sends a new text of the script.
@@ -68,11 +68,24 @@ pub(super) fn step(
 
 /// Adds a thing to the cast and selects it.
 pub(in crate::panels) fn add(workspace: &mut Workspace, thing: &NewThing) -> Option<Effect> {
-    add_all(workspace, std::slice::from_ref(thing), &[])
+    add_all(workspace, std::slice::from_ref(thing), &[], &[])
 }
 
-/// Adds things of one kind to the cast and sounds at the playhead in one step, and selects the things.
-pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing], sounds: &[String]) -> Option<Effect> {
+/// Returns a change by which the project, if there is one, also lists the models of these files with their hashes.
+pub(super) fn with_hashes(change: ScriptChange, base: &SceneBase, hashes: &[(String, u64)]) -> ScriptChange {
+    let Some(project) = base.script.project() else { return change };
+    let models = hashes.iter().map(|(file, hash)| (file.as_str(), *hash));
+    let listed = listed_models(project, models, change.label);
+    ScriptChange { also: change.also.into_iter().chain(listed).collect(), ..change }
+}
+
+/// Adds things of one kind to the cast and sounds at the playhead in one step, and selects the things. A project lists their models with these hashes.
+pub(super) fn add_all(
+    workspace: &mut Workspace,
+    things: &[NewThing],
+    sounds: &[String],
+    hashes: &[(String, u64)],
+) -> Option<Effect> {
     let label = match (things, sounds) {
         ([], []) => return None,
         ([], _) => ScriptLabel::AddSound,
@@ -81,7 +94,7 @@ pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing], sounds: &[
     };
     let at = workspace.read().scene_time();
     let mut added = Vec::new();
-    let effect = gesture(workspace, label, ChangedThings::None, |base| {
+    let effect = step(workspace, |base| {
         let mut script = Arc::clone(&base.script);
         for thing in things {
             let (next, id) = with_new_thing(&script, thing)?;
@@ -92,7 +105,8 @@ pub(super) fn add_all(workspace: &mut Workspace, things: &[NewThing], sounds: &[
         for sound in sounds {
             script = Arc::new(with_new_sound(&script, sound, at)?);
         }
-        Ok(script.tree().text().to_string())
+        let text = script.tree().text().to_string();
+        Ok(with_hashes(base.step(text, label, ChangedThings::None), base, hashes))
     });
     if effect.is_some() && !added.is_empty() {
         workspace.scene.await_things(added);

@@ -26,6 +26,8 @@ pub struct SceneSounds {
     unsure: BTreeSet<Box<str>>,
     /// Grows when another document is opened.
     opened: u64,
+    /// Grows with each change of what is known.
+    changes: u64,
 }
 
 impl SceneSounds {
@@ -51,6 +53,11 @@ impl SceneSounds {
         self.opened
     }
 
+    /// Returns numbers that are others after each change of what is known.
+    pub(super) fn version(&self) -> [u64; 2] {
+        [self.opened, self.changes]
+    }
+
     /// Returns the first sound of a plan of which nothing is known, or whose file may be another one by now.
     pub fn wanted<'a>(&self, plan: &'a StagePlan) -> Option<&'a str> {
         let is_wanted = |source: &&str| !self.sounds.contains_key(*source) || self.unsure.contains(*source);
@@ -61,6 +68,7 @@ impl SceneSounds {
     pub fn keep_named(&mut self, plan: &StagePlan) {
         let named: BTreeSet<&str> = plan.sounds().iter().map(|sound| &*sound.source).collect();
         self.sounds.retain(|source, _| named.contains(&**source));
+        self.changes += 1;
         self.unsure.retain(|source| named.contains(&**source));
     }
 
@@ -68,6 +76,7 @@ impl SceneSounds {
     /// their files changed.
     pub fn look_again(&mut self) {
         self.sounds.retain(|_, sound| !matches!(sound, SceneSound::Problem(_)));
+        self.changes += 1;
         let read = self.sounds.iter().filter(|(_, sound)| matches!(sound, SceneSound::Read(_)));
         self.unsure = read.map(|(source, _)| source.clone()).collect();
     }
@@ -79,6 +88,7 @@ impl SceneSounds {
             return self.stamps.get(source).copied();
         }
         self.sounds.insert(source.into(), SceneSound::Reading);
+        self.changes += 1;
         None
     }
 
@@ -102,6 +112,7 @@ impl SceneSounds {
             Err(reason) => SceneSound::Problem(reason.into()),
         };
         self.sounds.insert(source.into(), sound);
+        self.changes += 1;
     }
 
     /// Returns sounds of which nothing is known, for another document.

@@ -6,14 +6,18 @@ use crate::panels::request::Request;
 use crate::panels::style::{CARD_RADIUS, GRID};
 use crate::panels::theme::Theme;
 use crate::panels::window_status::DeviceStatus;
-use dragonfly_document::Source;
+use dragonfly_document::{LoadStage, Source};
 use egui::{Align2, CornerRadius, Frame, Margin, Rect, RichText, Stroke, Ui, vec2};
 
 /// Draws the card for the present state, if there is one.
 pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     if let Some(loading) = context.loading {
         card(ui, rect, |ui| {
-            ui.label(RichText::new(format!("Opening {}", loading.title)).heading());
+            let what = match loading.progress.stage {
+                LoadStage::Copying => "Saving",
+                LoadStage::Reading | LoadStage::Understanding | LoadStage::Decoding => "Opening",
+            };
+            ui.label(RichText::new(format!("{what} {}", loading.title)).heading());
             ui.label(RichText::new(loading.progress.stage.title()).color(Theme::of(ui).weak));
             ui.add_space(GRID);
             let bar = egui::ProgressBar::new(loading.progress.done).desired_width(260.0).desired_height(6.0);

@@ -14,7 +14,7 @@ commands! {
     ImportOptions => When::Model, "Import options…", [], "Opens the file again with another unit, up axis, handedness or frame rate (scale, import settings)", |w| { w.prompts.show(Some(Overlay::ImportOptions)); None };
     OpenBuiltIn => When::Always, "Built-in dragonfly", [], "Opens the built-in example model", |_| Some(Effect::File(FileAction::Leave(Then::Open(Source::BuiltIn))));
     ImportTakes => When::Model, "Import takes…", [], "Adds the takes of other files to the model: bones are matched by name, other figures are retargeted (clips, animations, captures)", |w| Some(Effect::Choose(FileChoice::Takes, w.read().model_folder()));
-    CancelLoading => When::Loading, "Stop loading", [], "Cancels loading and keeps the open model", |_| Some(Effect::File(FileAction::Send(DocumentMessage::CancelLoading)));
+    CancelLoading => When::Loading, "Stop loading", [], "Cancels loading, or copying the files of a scene, and keeps the open model", |_| Some(Effect::File(FileAction::Send(DocumentMessage::CancelLoading)));
     Save => When::Model, "Save", [key(CTRL, Key::S)], "Saves the model; every byte of the file that was not edited stays as it is", files::save;
     SaveAs => When::Model, "Save as…", [key(CTRL.plus(SHIFT), Key::S)], "Saves to another file, and continues with that file", |_| Some(Effect::File(FileAction::Where { copy: false, then: None }));
     SaveCopy => When::Model, "Save a copy…", [], "Saves to another file, and continues with the current file", |_| Some(Effect::File(FileAction::Where { copy: true, then: None }));

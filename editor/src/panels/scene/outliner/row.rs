@@ -59,7 +59,10 @@ pub(super) fn show(
         let color = if *is_bad { theme.warning } else { theme.faint };
         let end = widgets::text_in(ui, place, note, &TextStyle::Small, color);
         let place = Rect::from_min_max(pos2(end + 4.0, rect.top()), text.max);
-        if *is_bad && place.width() > FIND {
+        if *is_bad
+            && place.width() > FIND
+            && let Some(find) = find_request(thing, scene)
+        {
             let place = place.with_max_x(place.left() + FIND);
             let button = ui.interact(place, response.id.with("find"), Sense::click());
             button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Find the model of {id}")));
@@ -67,7 +70,7 @@ pub(super) fn show(
             widgets::text_in(ui, place.shrink2(vec2(4.0, 0.0)), "Find…", &TextStyle::Small, color);
             widgets::focus_ring(ui, &button, place);
             if button.clicked() {
-                requests.extend(find_request(thing, scene));
+                requests.push(find);
             }
             button
                 .on_hover_text("Choose the file in its place; others that are missing are found next to it");
@@ -149,13 +152,25 @@ fn hint(thing: &ScriptElement, model: Option<&SceneModel>, file: Option<&str>) -
     format!("{kind} {id}{source}{file}{reason}{action}")
 }
 
-/// Returns the request that asks where the missing model of a thing is; `None` where it is not missing.
+/// Returns the request that asks where the missing model of a thing is; `None` where it is not missing, or only an included file names it.
 fn find_request(thing: &ScriptElement, scene: &SceneView) -> Option<Request> {
     let name = thing.value("model")?;
     match scene.models.get(name)? {
-        SceneModel::Missing(_) => Some(Request::Scene(SceneRequest::Find(scene.missing_model(name)))),
+        SceneModel::Missing(_) => {
+            let missing = scene.missing_model(name);
+            let is_named_here = scene.included_place_of(&missing).is_none();
+            is_named_here.then(|| Request::Scene(SceneRequest::Find(missing)))
+        }
         SceneModel::Loading | SceneModel::Loaded(_) => None,
     }
+}
+
+/// Returns the sentence that only an included file names the missing model of a thing; `None` for others.
+fn included_place(thing: &ScriptElement, scene: &SceneView) -> Option<String> {
+    let name = thing.value("model")?;
+    let SceneModel::Missing(_) = scene.models.get(name)? else { return None };
+    let missing = scene.missing_model(name);
+    Some(missing.named_in(scene.included_place_of(&missing)?))
 }
 
 /// Returns the edits of the model of a thing that were made for another file; `None` where there are none.
@@ -174,7 +189,9 @@ pub(super) fn menu(
     requests: &mut Vec<Request>,
 ) {
     let (kind, id) = (thing.row.name, thing.value("id").unwrap_or_default());
-    if let Some(find) = find_request(thing, scene)
+    if let Some(place) = included_place(thing, scene) {
+        ui.add_enabled(false, egui::Button::new(place).frame_when_inactive(false));
+    } else if let Some(find) = find_request(thing, scene)
         && entry(ui, "Find the model…").clicked()
     {
         requests.push(find);

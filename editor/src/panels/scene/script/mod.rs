@@ -1,6 +1,7 @@
 //! The script of a scene as a text that one writes, with colors, suggestions and errors.
 
 mod coloring;
+mod cursor;
 mod error_list;
 mod lines;
 mod margin;
@@ -17,11 +18,11 @@ use super::super::{Panel, PanelPlace, widgets};
 use super::{SceneRequest, ScriptChange};
 use crate::panels::commands::Id as CommandId;
 use coloring::ScriptLayout;
+use cursor::{cursor_request, script_names, scripts_of_project, selected_range};
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::TextSplice;
-use dragonfly_anim::stage::table::{ElementGroup, PROJECTS, SCRIPTS};
+use dragonfly_anim::stage::table::{PROJECTS, SCRIPTS};
 use dragonfly_anim::stage::writing::{CompletionNames, completions};
-use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::{Change, SceneView};
 use egui::text::{CCursor, CCursorRange};
@@ -30,7 +31,7 @@ use egui::{
     CornerRadius, EventFilter, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer, TextEdit, Ui,
     pos2,
 };
-use error_list::ListClick;
+use error_list::{ErrorList, ListClick};
 use lines::{byte_of, characters_before, lines_of, moved_position};
 use popup::{SuggestionKey, SuggestionList};
 use std::collections::BTreeSet;
@@ -62,6 +63,7 @@ pub struct ScriptPanel {
     caret: Option<CCursor>,
     /// The text that is shown.
     shown: ShownText,
+    errors: ErrorList,
 }
 
 impl Panel for ScriptPanel {
@@ -99,10 +101,13 @@ impl Panel for ScriptPanel {
         let rect = ui.available_rect_before_wrap();
         ui.painter().rect_filled(rect, CornerRadius::ZERO, Theme::of(ui).sunken);
         let sounds = context.scene_editing.sounds();
-        let errors = error_list::height(scene, sounds, rect.height());
+        if let Some(scene) = context.view.and_then(|view| view.scene.as_ref()) {
+            self.errors.update(scene, sounds);
+        }
+        let errors = self.errors.height(rect.height());
         let edit = Rect::from_min_max(rect.min, pos2(rect.right(), rect.bottom() - errors));
         let list = Rect::from_min_max(pos2(rect.left(), edit.bottom()), rect.max);
-        match error_list::show(ui, list, scene, sounds) {
+        match error_list::show(ui, list, &self.errors) {
             Some(ListClick::Place(text, at)) => {
                 self.choose(Some(text), requests);
                 self.jump = Some(at);
@@ -385,56 +390,4 @@ impl ScriptPanel {
             self.typed(&before, time, context, requests);
         }
     }
-}
-
-/// Returns the request that follows the cursor of a text: what is there is selected.
-fn cursor_request(scene: &SceneView, shown: ShownText, at: usize) -> Option<SceneRequest> {
-    match shown {
-        ShownText::Script => Some(SceneRequest::Cursor(at)),
-        ShownText::Project => {
-            let tree = scene.project.as_ref()?.tree();
-            let element = &tree.elements()[tree.element_at(at)?];
-            let id = element.value("id").filter(|_| element.row.group == ElementGroup::Thing)?;
-            Some(SceneRequest::SelectThings(vec![id.into()], Choice::Replace))
-        }
-    }
-}
-
-/// Returns the bytes of what is selected elsewhere: the action, or the active thing; `None` while the text is another one than the scene has, and
-/// where it is in another text.
-fn selected_range(scene: &SceneView, context: &PanelContext<'_>, shown: ShownText) -> Option<Range<usize>> {
-    let (script, editing) = (scene.script.as_ref()?, context.scene_editing);
-    let project = script.project().filter(|_| shown == ShownText::Project);
-    let (own, newest) = match project {
-        Some(project) => (project.tree().text(), editing.project_text(scene)?),
-        None => (script.tree().text(), editing.text(scene)),
-    };
-    if !Arc::ptr_eq(own, newest) && **own != **newest {
-        return None;
-    }
-    if let Some(action) = editing.action() {
-        script.actions().get(action)?;
-        return script.tree().range_in_text(script.element(action)).filter(|_| project.is_none());
-    }
-    let element = &script.tree().elements()[script.thing_element(editing.things().last()?)?];
-    match project {
-        Some(project) => Some(project.tree().elements()[project.element_of(element)?].range.clone()),
-        None => script.tree().range_in_text(element),
-    }
-}
-
-/// Returns the scripts of the project, relative to its folder.
-fn scripts_of_project(scene: &SceneView) -> BTreeSet<String> {
-    scene.project.iter().flat_map(|project| project.scripts()).map(str::to_owned).collect()
-}
-
-/// Returns the files that the script may include, as it would write them: the other scripts of its project, those that it includes, and
-/// those next to one that is missing.
-fn script_names(scene: &SceneView) -> BTreeSet<String> {
-    let of_project = scene.project.iter().flat_map(|project| project.scripts());
-    let included = scene.includes.texts().map(|(name, _)| name);
-    let beside = scene.includes.missing().flat_map(|(_, missing)| missing.beside.iter().map(String::as_str));
-    let folder = scene.name.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-    let others = of_project.chain(included).chain(beside).filter(|name| **name != *scene.name);
-    others.filter_map(|name| name.strip_prefix(&folder)).map(str::to_owned).collect()
 }

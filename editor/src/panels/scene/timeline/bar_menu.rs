@@ -29,7 +29,12 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
     let own = [action];
     let things = ChangedThings::Actions(&own);
     let has = |name: &str| row.is_some_and(|row| row.attribute(name).is_some());
-    if let Some(missing) = missing_sound(action, sheet)
+    let missing = missing_sound(action, sheet);
+    let place =
+        missing.as_ref().and_then(|missing| Some(missing.named_in(sheet.scene.included_place_of(missing)?)));
+    if let Some(place) = place {
+        ui.add_enabled(false, egui::Button::new(place).frame_when_inactive(false));
+    } else if let Some(missing) = missing
         && entry(ui, "Find the sound…").clicked()
     {
         requests.push(Request::Scene(SceneRequest::Find(missing)));
