@@ -2,7 +2,7 @@
 
 use super::interface::Interface;
 use crate::panels::Request;
-use crate::panels::dropped_files::{DroppedModels, UnknownModels};
+use crate::panels::dropped_files::{DroppedModels, ModelForm, UnknownModels};
 use crate::panels::status::MessageSeverity;
 use dragonfly_document::{Cancel, Source, load_model};
 use dragonfly_runtime::{Address, Job, JobContext};
@@ -25,13 +25,13 @@ pub(super) fn look(unknown: UnknownModels, to: &Address<LookedModels>) -> std::i
 /// The first one that cannot be read, with its name and the reason.
 fn looked(unknown: UnknownModels) -> LookedModels {
     let UnknownModels { models, place, sounds } = unknown;
-    let looked = |(file, name)| -> Result<(String, bool), String> {
+    let looked = |(file, name)| -> Result<(String, ModelForm), String> {
         match load_model(&Source::File(file), &mut |_| {}, &Cancel::default()) {
-            Ok(loaded) => Ok((name, loaded.is_figure())),
+            Ok(loaded) => Ok((name, ModelForm::of(&loaded))),
             Err(error) => Err(format!("{name}: {error}")),
         }
     };
-    let models: Result<Vec<(String, bool)>, String> = models.into_iter().map(looked).collect();
+    let models: Result<Vec<(String, ModelForm)>, String> = models.into_iter().map(looked).collect();
     Ok(DroppedModels { models: models?, place, sounds })
 }
 

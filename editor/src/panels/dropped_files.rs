@@ -1,25 +1,47 @@
 //! Files that a scene is to get: dropped onto it, chosen, or found in the place of missing ones.
 
-use dragonfly_document::{MissingFile, SceneFiles};
+use dragonfly_document::{LoadedModel, MissingFile, SceneFiles};
 use glam::DVec3;
 use std::path::PathBuf;
 
 /// The place at which files were dropped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DropPlace {
-    /// On a bone or its skin: its name in scripts, such as `anna.RightHand`.
-    Bone(String),
+    /// On a bone or its skin: its name in scripts, such as `anna.RightHand`, and the place on the ground below, scene space.
+    Bone(String, DVec3),
     /// On the ground or a prop, scene space, to a centimeter.
     At(DVec3),
     /// Neither on a thing nor near the ground.
     Nowhere,
 }
 
+/// The kind of a model in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelForm {
+    /// It moves a skin: a role.
+    Figure,
+    /// It has takes but no skin: a role, unless something holds it.
+    Moving,
+    /// It has neither: a prop.
+    Object,
+}
+
+impl ModelForm {
+    /// Returns what a model is.
+    pub fn of(loaded: &LoadedModel) -> Self {
+        match (loaded.model.skins.is_empty(), loaded.is_figure()) {
+            (false, _) => Self::Figure,
+            (true, true) => Self::Moving,
+            (true, false) => Self::Object,
+        }
+    }
+}
+
 /// Files that were dropped, with what is known of the models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DroppedModels {
-    /// The models as the script names them, and whether each has takes or moves a skin.
-    pub models: Vec<(String, bool)>,
+    /// The models as the script names them, and what they are.
+    pub models: Vec<(String, ModelForm)>,
     /// The place at which they were dropped.
     pub place: DropPlace,
     /// The sounds as the script names them.
