@@ -14,7 +14,7 @@ use dragonfly_kit::document::fixture;
 use glam::{DVec3, Mat4, Vec3};
 
 /// A view of a straight chain: four bones of half a meter, up from the origin.
-fn chain() -> Window {
+pub(crate) fn chain() -> Window {
     use dragonfly_anim::data::{Bone, Skeleton};
     let bone = |index: u32| Bone {
         name: format!("bone {index}"),
@@ -33,7 +33,7 @@ fn poses(window: &Window) -> Vec<Transform> {
     (0..4).map(|bone| window.state().pose(bone)).collect()
 }
 
-fn joints(window: &Window) -> Vec<Vec3> {
+pub(crate) fn joints(window: &Window) -> Vec<Vec3> {
     let view = window.state().state.read().view.cloned().unwrap();
     let (skeleton, poses) = (&view.loaded.model.animation.skeleton, poses(window));
     let mut matrices = vec![Mat4::IDENTITY; 4];
@@ -41,12 +41,12 @@ fn joints(window: &Window) -> Vec<Vec3> {
     matrices.iter().map(|matrix| matrix.w_axis.truncate()).collect()
 }
 
-fn select(window: &mut Window, bones: &[u32]) {
+pub(crate) fn select(window: &mut Window, bones: &[u32]) {
     window.state_mut().state.execute(Request::SelectBones(bones.to_vec(), Choice::Replace));
     window.run_steps(2);
 }
 
-fn said(window: &Window) -> String {
+pub(crate) fn said(window: &Window) -> String {
     window.state().state.read().status.last().map(|message| message.text.clone()).unwrap_or_default()
 }
 

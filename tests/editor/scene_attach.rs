@@ -5,7 +5,7 @@ use crate::scene_lines::{at, run, send};
 use crate::workbench::Window;
 use dragonfly::control::{InputEvent, Key};
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels};
+use dragonfly::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, ModelForm};
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::data::Transform;
@@ -66,17 +66,44 @@ fn drop_at(window: &mut Window, place: DVec3, file: &str) -> Option<Effect> {
 }
 
 #[test]
-fn a_model_dropped_on_a_bone_is_a_prop_that_the_bone_holds_from_the_start() {
+fn an_object_dropped_on_a_bone_is_a_prop_that_the_bone_holds_from_the_start() {
+    for form in [ModelForm::Object, ModelForm::Moving] {
+        let mut window = scene(FOXES).window();
+        // A model that the scene has not read is read first.
+        let effect = drop_at(&mut window, FLANK, "/scenes/table.glb");
+        let Some(Effect::LookAtModels(unknown)) = effect else { panic!("{effect:?}") };
+        let model = |name: &str, form| DroppedModel { name: name.to_owned(), form, scale: 1.0 };
+        let models = vec![model("table.glb", form), model("Fox.glb", ModelForm::Figure)];
+        let (place, target) = (unknown.place, unknown.target);
+        let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
+        execute(&mut window, Request::DroppedModels(Box::new(dropped)));
+        let new = new_lines(FOXES, &text(&window));
+        assert_eq!((new.len(), window.state().steps()), (3, (1, 1)), "{new:?}");
+        assert!(new.contains(&r#"<prop id="table" model="table.glb" at="0 0 0"/>"#.to_owned()), "{new:?}");
+        // A figure that was dropped along with it is on the ground.
+        assert!(new.iter().any(|line| line.starts_with(r#"<role id="Fox" model="Fox.glb""#)), "{new:?}");
+        let attach = new.iter().find(|line| line.starts_with("<attach ")).expect("an attachment");
+        assert!(attach.starts_with(r#"<attach who="table" to="anna.b_"#), "{new:?}");
+        assert!(!attach.contains("begin"), "{new:?}");
+        let early = placed(&window, "table", 0.0).translation;
+        assert!(early.distance(glam::Vec3::new(-1.0, 0.45, 0.0)) < 0.6, "{early}");
+        window.state_mut().change(Change::Undo);
+        assert_eq!(text(&window), FOXES);
+    }
+}
+
+#[test]
+fn a_figure_dropped_on_a_bone_of_another_role_is_a_role_on_the_ground_below() {
     let mut window = scene(FOXES).window();
     assert_eq!(drop_at(&mut window, FLANK, "/scenes/Fox.glb"), None);
     let new = new_lines(FOXES, &text(&window));
-    assert_eq!((new.len(), window.state().steps()), (2, (1, 1)), "{new:?}");
-    assert_eq!(new[0], r#"<prop id="Fox" model="Fox.glb" at="0 0 0" scale="0.021"/>"#);
-    assert!(new[1].starts_with(r#"<attach who="Fox" to="anna.b_"#) && !new[1].contains("begin"), "{new:?}");
+    assert_eq!((new.len(), window.state().steps()), (1, (1, 1)), "{new:?}");
+    assert!(new[0].starts_with(r#"<role id="Fox" model="Fox.glb" at=""#), "{new:?}");
+    assert!(new[0].ends_with("scale=\"0.021\"/>"), "{new:?}");
     let things = window.state().state.read().scene_editing.things().to_vec();
     assert_eq!(things, [Box::from("Fox")]);
-    let early = placed(&window, "Fox", 0.0).translation;
-    assert!(early.distance(glam::Vec3::new(-1.0, 0.45, 0.0)) < 0.6, "{early}");
+    let place = placed(&window, "Fox", 0.0).translation;
+    assert!(place.y == 0.0 && place.distance(glam::Vec3::new(-1.0, 0.0, 0.0)) < 0.4, "{place}");
     window.state_mut().change(Change::Undo);
     assert_eq!(text(&window), FOXES);
 }
@@ -97,7 +124,7 @@ fn a_model_dropped_beside_bones_stands_there_as_a_figure_or_an_object() {
     assert_eq!(text(&window), FOXES);
     let DropPlace::At(place) = unknown.place.clone() else { panic!("{unknown:?}") };
     assert!(place.distance(DVec3::new(0.0, 0.0, 1.5)) < 0.02, "{place}");
-    let models = vec![DroppedModel { name: "table.glb".to_owned(), is_figure: false, scale: 1.0 }];
+    let models = vec![DroppedModel { name: "table.glb".to_owned(), form: ModelForm::Object, scale: 1.0 }];
     let (place, target) = (unknown.place.clone(), unknown.target.clone());
     let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
     execute(&mut window, Request::DroppedModels(Box::new(dropped)));

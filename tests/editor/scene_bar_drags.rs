@@ -5,6 +5,7 @@ use crate::scene_timeline::{Lanes, drag};
 use crate::workbench::{Window, move_to, press, release};
 use dragonfly::panels::Request;
 use dragonfly::panels::scene::SceneRequest;
+use dragonfly_document::bones::Choice;
 use egui::{Modifiers, pos2};
 
 const LOOKS: usize = 5;
@@ -101,4 +102,72 @@ fn a_length_that_is_written_is_not_changed_by_a_speed() {
     let bar = Lanes::of(&window).bar(&window, LOOK);
     drag(&mut window, pos2(bar.right() - 2.0, bar.bottom() - 3.0), 0.5, Modifiers::ALT);
     assert_eq!(text(&window), FOXES);
+}
+
+#[test]
+fn several_bars_go_to_the_lane_of_another_role_in_one_step_and_keep_their_distances() {
+    let mut window = scene(FOXES).window();
+    let select = SceneRequest::SelectActions(vec![LOOKS, RUN], Choice::Replace);
+    window.state_mut().state.execute(Request::Scene(select));
+    window.run_steps(2);
+    let before = [times(&window, LOOKS), times(&window, RUN)];
+    let lanes = Lanes::of(&window);
+    let from = lanes.bar(&window, LOOKS).center();
+    let ben = lanes.bar(&window, MOVE).center();
+    press(&mut window, from);
+    for share in [0.5, 1.0] {
+        move_to(&mut window, pos2(from.x, from.y + (ben.y - from.y) * share), Modifiers::NONE);
+    }
+    release(&mut window, pos2(from.x, ben.y));
+    let new = new_lines(FOXES, &text(&window));
+    assert_eq!(window.state().steps(), (1, 1), "{new:?}");
+    let plays: Vec<&String> = new.iter().filter(|line| line.starts_with("<play ")).collect();
+    assert!(plays.len() == 2 && plays.iter().all(|line| line.contains("who=\"ben\"")), "{new:?}");
+    assert!(plays[0].contains("id=\"looks\"") && plays[1].contains("take=\"Run\""), "{new:?}");
+    assert!(!text(&window).contains("<play id=\"looks\" who=\"anna\""));
+    // All other actions refer to them as before, at the same times.
+    let lanes = window.state().state.read().scene_editing.lanes().clone();
+    let bars: Vec<[f64; 2]> = lanes
+        .list
+        .iter()
+        .filter(|lane| &*lane.name == "ben")
+        .flat_map(|lane| lane.bars.iter().filter(|bar| bar.kind == "play"))
+        .map(|bar| [bar.begin.seconds(), bar.end.seconds()])
+        .collect();
+    for (bar, before) in bars.iter().zip(before) {
+        assert!(
+            (bar[0] - before[0]).abs() < 2e-3 && (bar[1] - before[1]).abs() < 2e-3,
+            "{bars:?} {before:?}"
+        );
+    }
+    assert_eq!(bars.len(), 2);
+    window.state_mut().change(dragonfly_document::Change::Undo);
+    window.run_steps(2);
+    assert_eq!(text(&window), FOXES);
+}
+
+#[test]
+fn bars_that_another_role_cannot_do_stay_where_they_are_and_the_status_line_has_the_reason() {
+    let script = FOXES.replace(
+        "<look who=\"ben\"",
+        "<attach who=\"anna\" to=\"door\" begin=\"3\"/>\n    <look who=\"ben\"",
+    );
+    let mut window = scene(&script).window();
+    let attach = MOVE + 1;
+    let select = SceneRequest::SelectActions(vec![attach, LOOKS], Choice::Replace);
+    window.state_mut().state.execute(Request::Scene(select));
+    window.run_steps(2);
+    let lanes = Lanes::of(&window);
+    let from = lanes.bar(&window, LOOKS).center();
+    let ben = lanes.bar(&window, MOVE).center();
+    press(&mut window, from);
+    for share in [0.5, 1.0] {
+        move_to(&mut window, pos2(from.x, from.y + (ben.y - from.y) * share), Modifiers::NONE);
+    }
+    release(&mut window, pos2(from.x, ben.y));
+    let new = text(&window);
+    assert!(new.contains("<play id=\"looks\" who=\"ben\""), "{new}");
+    assert!(new.contains("<attach who=\"anna\" to=\"door\" begin=\"3\"/>"), "{new}");
+    assert!(said(&window, "1 action stays: An attachment stays with the thing that is held"));
+    assert_eq!(window.state().steps(), (1, 1));
 }

@@ -1,12 +1,17 @@
 //! The second viewport of a scene in the window: its place, the line between the two, and when it is gone.
 
 use crate::scene_bench::{FOXES, scene};
-use crate::scene_lines::run;
+use crate::scene_lines::{run, send};
 use crate::workbench::{Window, drag};
+use dragonfly::control::{Button, InputEvent, Modifiers as Held};
+use dragonfly::panels::Effect;
 use dragonfly::panels::commands::Id;
 use dragonfly_kit::document::fixture;
-use egui::{Modifiers, Rect, vec2};
+use dragonfly_picture::ThroughCamera;
+use dragonfly_picture::camera::Camera;
+use egui::{Modifiers, Pos2, Rect, vec2};
 use egui_kittest::kittest::Queryable;
+use glam::Vec2;
 
 fn places(window: &Window) -> (Rect, Option<Rect>) {
     let read = window.state().state.read();
@@ -44,4 +49,121 @@ fn a_model_has_no_second_viewport() {
     window.state_mut().state.show(fixture::full());
     window.run_steps(3);
     assert_eq!(places(&window).1, None);
+}
+
+/// A window with both views, and their places.
+fn both() -> (Window, [Rect; 2]) {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::ToggleSecondView);
+    window.run_steps(2);
+    let (left, right) = places(&window);
+    (window, [left, right.expect("a second viewport")])
+}
+
+fn point(window: &mut Window, at: Pos2) {
+    send(window, InputEvent::MouseMove(Vec2::new(at.x, at.y)));
+    window.run_steps(2);
+}
+
+/// Returns the camera of the active view, and through which one of the scene it looks.
+fn active(window: &Window) -> (Camera, ThroughCamera) {
+    let read = window.state().state.read();
+    (read.camera, read.through.clone())
+}
+
+fn orbit(window: &mut Window, from: Pos2, by: f32) {
+    point(window, from);
+    let at = Vec2::new(from.x, from.y);
+    send(window, InputEvent::Modifiers(Held { alt: true, ..Held::default() }));
+    send(window, InputEvent::MouseDown(Button::Left));
+    send(window, InputEvent::MouseMove(at + Vec2::new(by, 20.0)));
+    send(window, InputEvent::MouseUp(Button::Left));
+    send(window, InputEvent::Modifiers(Held::default()));
+    window.run_steps(2);
+}
+
+#[test]
+fn the_view_under_the_pointer_is_the_one_whose_camera_moves() {
+    let (mut window, [left, right]) = both();
+    point(&mut window, left.center());
+    let (free, through) = active(&window);
+    assert_eq!((places(&window), through), ((left, Some(right)), ThroughCamera::Free));
+    point(&mut window, right.center());
+    let (of_shot, through) = active(&window);
+    assert_eq!((places(&window), through), ((right, Some(left)), ThroughCamera::Shot));
+    assert_ne!(of_shot, free);
+    // Orbiting leaves the camera of the shot, in this view alone.
+    orbit(&mut window, right.center(), 60.0);
+    let (moved, through) = active(&window);
+    assert_eq!(through, ThroughCamera::Free);
+    assert!(moved.eye().distance(of_shot.eye()) > 0.1, "{moved:?}");
+    // The wheel zooms in it.
+    window.event(egui::Event::PointerMoved(right.center()));
+    window.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Point,
+        delta: vec2(0.0, 60.0),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(4);
+    let zoomed = active(&window).0;
+    assert!(zoomed.distance < moved.distance, "{zoomed:?} {moved:?}");
+    point(&mut window, left.center());
+    assert_eq!(active(&window), (free, ThroughCamera::Free), "the first view is as it was");
+    assert!(window.query_by_label("Second view, free camera").is_some());
+    orbit(&mut window, left.center(), -30.0);
+    assert_ne!(active(&window).0, free);
+    point(&mut window, right.center());
+    assert_eq!(active(&window).0, zoomed, "and so is the second one");
+}
+
+#[test]
+fn clicks_and_commands_of_the_camera_are_for_the_view_under_the_pointer() {
+    let (mut window, [left, right]) = both();
+    point(&mut window, right.center());
+    let mut effects = Vec::new();
+    for event in [InputEvent::MouseDown(Button::Left), InputEvent::MouseUp(Button::Left)] {
+        window.state_mut().state.input(event, &mut effects);
+    }
+    assert!(
+        effects
+            .iter()
+            .any(|effect| matches!(effect, Effect::Pick(at, _) if at.distance(right.center()) < 1.0)),
+        "{effects:?}"
+    );
+    run(&mut window, Id::LookFreely);
+    let camera = active(&window).0;
+    run(&mut window, Id::ViewFront);
+    window.run_steps(2);
+    assert_ne!(active(&window).0, camera);
+    run(&mut window, Id::LookThroughShot);
+    point(&mut window, left.center());
+    assert_eq!(active(&window).1, ThroughCamera::Free);
+    run(&mut window, Id::LookThroughShot);
+    assert_eq!(active(&window).1, ThroughCamera::Shot);
+    run(&mut window, Id::LookFreely);
+    point(&mut window, right.center());
+    assert_eq!(active(&window).1, ThroughCamera::Shot);
+}
+
+#[test]
+fn a_drag_stays_in_its_view_and_one_view_alone_is_the_first_one() {
+    let (mut window, [left, right]) = both();
+    point(&mut window, left.center());
+    let free = active(&window).0;
+    let center = Vec2::new(left.center().x, left.center().y);
+    send(&mut window, InputEvent::MouseDown(Button::Middle));
+    send(&mut window, InputEvent::MouseMove(Vec2::new(right.center().x, center.y)));
+    assert_eq!(places(&window), (left, Some(right)), "the button is held");
+    send(&mut window, InputEvent::MouseUp(Button::Middle));
+    let moved = active(&window).0;
+    assert_ne!(moved, free);
+    point(&mut window, right.center());
+    assert_eq!(places(&window), (right, Some(left)));
+    run(&mut window, Id::ToggleSecondView);
+    window.run_steps(3);
+    let (whole, none) = places(&window);
+    assert!(none.is_none() && whole.left() == left.left() && whole.right() == right.right());
+    assert_eq!(active(&window), (moved, ThroughCamera::Free));
 }

@@ -76,6 +76,14 @@ impl StagePath {
         PathSpot { position: self.point(part, share), direction: self.slope(part, share).normalize_or_zero() }
     }
 
+    /// Returns the part of the path that is there after `distance` meters: the number of points before it, less one. Points at the same position as
+    /// the one before do not count.
+    pub fn part_at(&self, distance: f64) -> usize {
+        let last = self.lengths.len().saturating_sub(2);
+        let piece = self.lengths.partition_point(|&length| length <= distance).saturating_sub(1).min(last);
+        piece / self.pieces()
+    }
+
     /// Returns the radius of the circle through the places after `distance` meters and `span` meters before and after that; infinite where
     /// they are on a line, and near the ends. At a corner it is in proportion to `span`, and 0 where the path turns back.
     pub fn radius(&self, distance: f64, span: f64) -> f64 {

@@ -89,13 +89,15 @@ pub struct Look {
     pub around: Option<Arc<SceneAround>>,
 }
 
-/// A second view of the scene of a script: through a camera of it, without handles and helpers.
+/// A second view of the scene of a script, without handles and helpers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondView {
     /// Position and size, physical pixels of the window: x, y, width, height.
     pub viewport: [u32; 4],
     /// The camera through which the scene is seen.
     pub through: ThroughCamera,
+    /// The free camera, with which it is seen where it is seen through none.
+    pub camera: Camera,
 }
 
 impl Default for Look {

@@ -258,7 +258,8 @@ impl Scene {
         let playback = std::mem::replace(&mut self.playback, still);
         let [width, height] = order.size;
         let through = ThroughCamera::Of(Arc::clone(&order.camera));
-        (self.prepare_beside(SecondView { viewport: [0, 0, width, height], through }, now), playback)
+        let view = SecondView { viewport: [0, 0, width, height], through, camera: self.camera };
+        (self.prepare_beside(view, now), playback)
     }
 
     /// Computes everything for a view apart from the viewport, without handles and helpers. Returns the look of the viewport.
@@ -272,9 +273,11 @@ impl Scene {
             ..self.look.clone()
         };
         let look = std::mem::replace(&mut self.look, own);
+        let camera = std::mem::replace(&mut self.camera, view.camera);
         self.is_second = true;
         self.prepare(now);
         self.is_second = false;
+        self.camera = camera;
         look
     }
 

@@ -10,7 +10,7 @@ use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
     AppearanceSender, ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook,
     GraphicsHandle, IkAppearance, LineAppearance, Look, PathAppearance, ReferenceAppearance, SecondView,
-    ThingAppearance, ThroughCamera,
+    ThingAppearance,
 };
 use std::sync::Arc;
 
@@ -165,9 +165,10 @@ fn look(
         helpers: state.scene().is_some() && settings.helpers,
         hidden_things,
         around: state.around.cloned(),
-        second: state
-            .second_view
-            .filter(|_| state.scene().is_some())
-            .map(|rect| SecondView { viewport: place(rect), through: ThroughCamera::Shot }),
+        second: state.second_view.filter(|_| state.scene().is_some()).map(|rect| SecondView {
+            viewport: place(rect),
+            through: state.other_through.clone(),
+            camera: state.other_camera,
+        }),
     }
 }

@@ -1,6 +1,7 @@
 //! The points of paths and lines of a scene as a control: each can be dragged.
 //!
 //! ```text
+//! press           selects the point
 //! drag            moves the point at its height
 //! Shift + drag    moves it up and down
 //! Ctrl + drag     snaps it to a quarter of a meter, on the axes that it moves along
@@ -95,6 +96,10 @@ impl PointSet for PathPoints {
         // The other axes stay exactly as they are.
         let put = if modifiers.ctrl { DVec3::select(moved, (put / SNAP).round() * SNAP, place) } else { put };
         put.is_finite().then(|| PathPoint { place: put, ..point.clone() })
+    }
+
+    fn pressed(point: &PathPoint) -> Option<ToolOutcome> {
+        Some(ToolOutcome::SelectPoint(point.clone()))
     }
 
     fn request(point: PathPoint) -> ToolOutcome {

@@ -33,6 +33,12 @@ pub trait PointSet {
         modifiers: Modifiers,
     ) -> Option<Self::Point>;
 
+    /// Returns the request that follows a press on a point, before it is dragged.
+    fn pressed(point: &Self::Point) -> Option<ToolOutcome> {
+        let _ = point;
+        None
+    }
+
     /// Returns the request to move a point of the document there.
     fn request(point: Self::Point) -> ToolOutcome;
 }
@@ -171,6 +177,7 @@ impl<S: PointSet> BaseControl for PointControl<S> {
         let point = self.point_at(at).filter(|_| begins).and_then(|index| self.set.point(index)).cloned();
         match point {
             Some(point) => {
+                self.outcome = S::pressed(&point);
                 self.machine.begin(DraggedPoint { point, start: at });
                 InputFlow::Stop
             }

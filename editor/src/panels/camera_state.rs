@@ -20,10 +20,21 @@ pub(super) struct CameraState {
     moved: Option<Camera>,
     /// The viewport, points.
     viewport: Rect,
-    /// The second view of a scene, points; `None` without one.
+    /// The rectangle of the other one of two views of a scene, points; `None` while there is one view. Viewport and cameras are those of the active view.
     second: Option<Rect>,
+    other: OtherView,
+    /// Whether the active one of two views is the second one.
+    is_second_active: bool,
     /// Toolbars and cards over the viewport, points.
     shields: Vec<Rect>,
+}
+
+/// The view of a scene that is not active.
+#[derive(Clone, Debug)]
+struct OtherView {
+    camera: Camera,
+    through: ThroughCamera,
+    is_attached: bool,
 }
 
 impl Default for CameraState {
@@ -36,6 +47,8 @@ impl Default for CameraState {
             moved: None,
             viewport: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
             second: None,
+            other: OtherView { camera: Camera::default(), through: ThroughCamera::Shot, is_attached: false },
+            is_second_active: false,
             shields: Vec::new(),
         }
     }
@@ -123,14 +136,57 @@ impl CameraState {
         self.viewport
     }
 
-    /// Returns the rectangle of the second view of a scene, points; `None` without one.
+    /// Returns the rectangle of the other one of two views of a scene, points; `None` while there is one view.
     pub(super) fn second(&self) -> Option<Rect> {
         self.second
     }
 
-    /// Sets the rectangle of the second view.
+    /// Sets the rectangle of the other view. A new one looks through the camera of the shot, and the first one is the active one where there is one view.
     pub(super) fn set_second(&mut self, second: Option<Rect>) {
+        if second.is_none() {
+            self.activate(false);
+        } else if self.second.is_none() {
+            self.other =
+                OtherView { camera: *self.camera(), through: ThroughCamera::Shot, is_attached: false };
+        }
         self.second = second;
+    }
+
+    /// Returns whether the active one of two views is the second one.
+    pub(super) fn is_second_active(&self) -> bool {
+        self.is_second_active
+    }
+
+    /// Makes the first or the second view the active one, with its camera. Returns whether it was the other one.
+    pub(super) fn activate(&mut self, second: bool) -> bool {
+        if self.is_second_active == second {
+            return false;
+        }
+        self.is_second_active = second;
+        let Self { camera, through, is_attached, other, viewport, second: place, .. } = self;
+        std::mem::swap(camera, &mut other.camera);
+        std::mem::swap(through, &mut other.through);
+        std::mem::swap(is_attached, &mut other.is_attached);
+        if let Some(rect) = place {
+            std::mem::swap(viewport, rect);
+        }
+        (self.seen, self.moved) = (None, None);
+        true
+    }
+
+    /// Returns the free camera of the view that is not active.
+    pub(super) fn other_camera(&self) -> &Camera {
+        &self.other.camera
+    }
+
+    /// Returns the camera of a scene through which the view looks that is not active.
+    pub(super) fn other_through(&self) -> &ThroughCamera {
+        &self.other.through
+    }
+
+    /// Sets the camera of a scene through which the view looks that is not active.
+    pub(super) fn set_other_through(&mut self, through: ThroughCamera) {
+        self.other.through = through;
     }
 
     /// Returns the rectangles over the viewport, points.

@@ -8,12 +8,34 @@ use std::sync::Arc;
 /// The place at which files were dropped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DropPlace {
-    /// On a bone or its skin: its name in scripts, such as `anna.RightHand`.
-    Bone(String),
+    /// On a bone or its skin: its name in scripts, such as `anna.RightHand`, and the place on the ground below, scene space.
+    Bone(String, DVec3),
     /// On the ground or a prop, scene space, to a centimeter.
     At(DVec3),
     /// Neither on a thing nor near the ground.
     Nowhere,
+}
+
+/// The kind of a model in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelForm {
+    /// It moves a skin: a role.
+    Figure,
+    /// It has takes but no skin: a role, unless something holds it.
+    Moving,
+    /// It has neither: a prop.
+    Object,
+}
+
+impl ModelForm {
+    /// Returns what a model is.
+    pub fn of(loaded: &LoadedModel) -> Self {
+        match (loaded.model.skins.is_empty(), loaded.is_figure()) {
+            (false, _) => Self::Figure,
+            (true, true) => Self::Moving,
+            (true, false) => Self::Object,
+        }
+    }
 }
 
 /// A model that was dropped.
@@ -21,8 +43,8 @@ pub enum DropPlace {
 pub struct DroppedModel {
     /// The model as the script names it.
     pub name: String,
-    /// Whether it becomes a role; otherwise it is a prop.
-    pub is_figure: bool,
+    /// Its kind in the scene.
+    pub form: ModelForm,
     /// Factor from its lengths to meters.
     pub scale: f64,
 }
@@ -30,9 +52,13 @@ pub struct DroppedModel {
 impl DroppedModel {
     /// Creates one of a model that was read. A figure that is far from human size is made as high as a human. `is_role` is what the user wants.
     pub fn of(name: String, loaded: &LoadedModel, is_role: Option<bool>) -> Self {
-        let is_figure = loaded.is_figure();
-        let scale = if is_figure { loaded.human_scale() } else { 1.0 };
-        Self { name, is_figure: is_role.unwrap_or(is_figure), scale }
+        let scale = if loaded.is_figure() { loaded.human_scale() } else { 1.0 };
+        let form = match (is_role, ModelForm::of(loaded)) {
+            (Some(false), _) => ModelForm::Object,
+            (Some(true), ModelForm::Object) => ModelForm::Moving,
+            (Some(true) | None, form) => form,
+        };
+        Self { name, form, scale }
     }
 }
 

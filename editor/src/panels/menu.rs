@@ -146,6 +146,7 @@ pub(super) fn entries(
             Id::ToolLine => context.tools.controls().line().use_of() == Some(LineUse::Note),
             Id::ToolPath => context.tools.controls().line().use_of() == Some(LineUse::Path),
             Id::PoseLine => context.tools.controls().line().use_of() == Some(LineUse::Pose),
+            Id::MotionStroke => context.tools.controls().line().use_of() == Some(LineUse::Motion),
             Id::ToggleScrubSounds => context.settings.scrub_sounds,
             Id::LinesOnGround => is_drawn_on(context, LineSurface::Ground),
             Id::LinesInView => is_drawn_on(context, LineSurface::View),

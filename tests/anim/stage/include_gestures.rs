@@ -68,7 +68,8 @@ fn every_gesture_on_what_is_in_another_file_is_refused_with_its_name() {
             copied_clips(&scene, &[at, y]),
             duplicate_clips(&scene, &[at, y]),
             move_to_lane(&scene, at, seconds(0.5), "anna", Followers::Follow),
-            move_clips_to_lane(&scene, &[at], seconds(0.5), "anna", Followers::Follow),
+            move_clips_to_lane(&scene, &[at], seconds(0.5), "anna", Followers::Follow)
+                .map(|moved| moved.text),
         ];
         for gesture in gestures {
             assert_eq!(

@@ -3,6 +3,7 @@
 use super::{SIZE, arms, view};
 use dragonfly_kit::picture::images::difference;
 use dragonfly_kit::picture::studio;
+use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{Look, SecondView, Studio, ThroughCamera};
 use image::RgbaImage;
@@ -15,7 +16,8 @@ const HEIGHT: u32 = SIZE[1];
 fn halves(studio: &mut Studio, through: ThroughCamera, second: Option<ThroughCamera>) -> [RgbaImage; 2] {
     let (now, stage, view) = (Instant::now(), studio.stage(), view(&arms()));
     stage.scene.show_scene(&view);
-    let second = second.map(|through| SecondView { viewport: [WIDTH, 0, WIDTH, HEIGHT], through });
+    let camera = Camera { yaw: 1.0, distance: 5.0, ..Camera::default() };
+    let second = second.map(|through| SecondView { viewport: [WIDTH, 0, WIDTH, HEIGHT], through, camera });
     let viewport = [0, 0, WIDTH, HEIGHT];
     stage.scene.look = Look { viewport, through, second, helpers: true, ..Look::default() };
     let length = view.plan.as_ref().map_or(0.0, |plan| plan.length().seconds());
@@ -48,4 +50,24 @@ fn the_second_view_is_what_its_camera_sees_and_the_viewport_stays_as_it_is() {
     assert_eq!(difference(&alone, &second), 0, "the second view is the image of its camera");
     let [_, gone] = halves(&mut studio, ThroughCamera::Free, None);
     assert_eq!(difference(&nothing, &gone), 0, "nothing is left of it");
+}
+
+#[test]
+fn a_second_view_through_no_camera_of_the_scene_is_seen_with_a_free_camera_of_its_own() {
+    let Some(mut studio) = studio::studio() else { return };
+    let [free, nothing] = halves(&mut studio, ThroughCamera::Free, None);
+    let [beside, second] = halves(&mut studio, ThroughCamera::Free, Some(ThroughCamera::Free));
+    assert_eq!(difference(&free, &beside), 0, "the viewport is as without a second view");
+    assert!(difference(&nothing, &second) > 0, "something is drawn");
+    let own = studio.stage().scene.camera;
+    // The same camera in the viewport, without helpers.
+    let now = Instant::now();
+    let stage = studio.stage();
+    stage.scene.camera = Camera { yaw: 1.0, distance: 5.0, ..Camera::default() };
+    stage.scene.look = Look { viewport: [0, 0, WIDTH, HEIGHT], ..Look::default() };
+    stage.touch_scene();
+    let alone = stage.capture(now).unwrap();
+    let alone = image::imageops::crop_imm(&alone, 0, 0, WIDTH, HEIGHT).to_image();
+    stage.scene.camera = own;
+    assert_eq!(difference(&alone, &second), 0, "the second view is the image of its camera");
 }

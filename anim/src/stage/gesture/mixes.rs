@@ -28,6 +28,15 @@ impl ActionOrigins {
         Self(all)
     }
 
+    /// Returns the origins where `actions`, in the order of the text, went with everything in them to before the action `before`.
+    pub(super) fn gathered(scene: &GestureScene<'_>, actions: &[usize], before: usize) -> Self {
+        let mut all = Self::without(scene, actions).0;
+        let at = all.iter().position(|origin| origin.is_some_and(|origin| origin >= before));
+        let at = at.unwrap_or(all.len());
+        all.splice(at..at, actions.iter().flat_map(|&action| scene.script.branch(action)).map(Some));
+        Self(all)
+    }
+
     /// Returns the origins where `actions` are deleted with everything in them.
     pub(super) fn without(scene: &GestureScene<'_>, actions: &[usize]) -> Self {
         let mut all = Self::same(scene).0;

@@ -65,8 +65,11 @@ pub use holding::{HeldGrip, attach_splices, attach_thing, detach_splices, grip_s
 pub use insert::{add_clip, cut_to, follow_path};
 pub use moving::{SequenceOrder, move_clip};
 pub use new_action::{add_new_action, wait_after};
-pub use other_lane::{move_clips_to_lane, move_to_lane};
-pub use path_points::{move_path_point, path_point_splices, path_points_splices, written_points};
+pub use other_lane::{MovedToLane, move_clips_to_lane, move_to_lane};
+pub use path_points::{
+    add_path_point_splices, move_path_point, path_point_splices, path_points_splices,
+    remove_path_point_splices, written_points,
+};
 pub use place_keys::key_place_splices;
 pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};

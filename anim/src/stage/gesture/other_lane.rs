@@ -2,13 +2,13 @@
 
 use super::begin::ends_with_another;
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
-use super::insert::{ActionPlace, check_who, place_in_par};
+use super::insert::{ActionPlace, check_who, place_in_par, place_index};
 use super::mixes::{ActionOrigins, mixed};
 use super::moving::new_index;
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
 use super::several::outermost;
-use crate::stage::script::{ActionMoment, ScriptElement};
-use crate::stage::splice::{AttachedComments, move_to};
+use crate::stage::script::{ActionMoment, ScriptElement, ScriptTree};
+use crate::stage::splice::{AttachedComments, ElementPlace, move_to};
 use crate::stage::table::ElementGroup;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::{readable, time_text};
@@ -27,13 +27,10 @@ pub fn move_to_lane(
     onto: &str,
     followers: Followers,
 ) -> Result<String, GestureRefusal> {
-    let element = scene.element(action)?;
+    scene.element(action)?;
     let (own, times) = (&scene.script.actions()[action], scene.times(action));
-    if element.row.group != ElementGroup::Action || element.value("who").is_none() {
-        return refused(format!("<{}> belongs to no thing of the cast", element.row.name));
-    }
-    fits_onto(scene, element, onto)?;
-    keeps_prev(scene.script, [Some(action), scene.script.next_sibling(action)].into_iter().flatten())?;
+    may_go_onto(scene, action, onto)?;
+    keeps_prev(scene.script, scene.script.next_sibling(action))?;
     let does = |&other: &usize| other != action && scene.script.element(other).value("who") == Some(onto);
     let near = (1..scene.script.actions().len()).rfind(does);
     // Not after itself in a sequence, where it would be cut off from the time that it gets.
@@ -58,21 +55,135 @@ pub fn move_to_lane(
     mixed(scene, draft, &origins)?.finish()
 }
 
-/// Gives one selected action to the thing `onto`, moved by a time; it begins at zero at the earliest. What is selected inside of it goes with it.
+/// Actions that went to the lane of another thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MovedToLane {
+    /// The new text.
+    pub text: String,
+    /// Why some of the actions stay where they are; `None` where all went there.
+    pub left: Option<GestureRefusal>,
+}
+
+/// Gives selected actions to the thing `onto`, moved by the same time; the first one begins at zero at the earliest. Those that this thing cannot do stay as
+/// they are. One action goes there as by [`move_to_lane`].
 ///
 /// # Errors
 ///
-/// As [`move_to_lane`]; and where several actions are selected, because only one at a time goes to another lane.
+/// None of the actions can go there: the reasons are those of [`move_to_lane`]. Also where an action that stays refers to one of them as `prev`.
 pub fn move_clips_to_lane(
     scene: &GestureScene<'_>,
     actions: &[usize],
     by: StageTime,
     onto: &str,
     followers: Followers,
-) -> Result<String, GestureRefusal> {
-    match outermost(scene, actions)?[..] {
-        [action] => move_to_lane(scene, action, scene.times(action).begin + by, onto, followers),
-        _ => refused("Only one action at a time goes to another lane: copy them and paste them there"),
+) -> Result<MovedToLane, GestureRefusal> {
+    let outer = outermost(scene, actions)?;
+    if let [action] = outer[..] {
+        let text = move_to_lane(scene, action, scene.times(action).begin + by, onto, followers)?;
+        return Ok(MovedToLane { text, left: None });
+    }
+    let mut moved: Vec<usize> = Vec::with_capacity(outer.len());
+    let mut refusals: Vec<GestureRefusal> = Vec::new();
+    for action in outer {
+        match may_go_onto(scene, action, onto) {
+            Ok(()) => moved.push(action),
+            Err(refusal) => refusals.push(refusal),
+        }
+    }
+    let left = refusals.first().map(|first| {
+        let count = refusals.len();
+        let what = if count == 1 { "1 action stays".to_owned() } else { format!("{count} actions stay") };
+        GestureRefusal(format!("{what}: {first}"))
+    });
+    if moved.is_empty() {
+        return Err(refusals.swap_remove(0));
+    }
+    let stays = |action: &usize| moved.binary_search(action).is_err();
+    keeps_prev(scene.script, moved.iter().filter_map(|&own| scene.script.next_sibling(own)).filter(stays))?;
+    let first = moved.iter().map(|&action| scene.times(action).begin).min().unwrap_or_default();
+    let by = by.max(-first);
+    let does = |action: &usize| stays(action) && scene.script.element(*action).value("who") == Some(onto);
+    let near = (1..scene.script.actions().len()).rfind(does);
+    let ActionPlace { place, base } = place_in_par(scene, near.or_else(|| around_seq(scene, moved[0])));
+    let rate = scene.script.rate();
+    let mut changes: Vec<AttributeChange<'_>> = Vec::new();
+    for &action in &moved {
+        let (own, times) = (&scene.script.actions()[action], scene.times(action));
+        let begin = readable(times.begin + by - base, rate);
+        let written = |time: StageTime| time_text(time, rate, "");
+        changes.push((own.element, "who", Some(onto.to_owned())));
+        changes.push((own.element, "begin", (begin != StageTime::ZERO).then(|| written(begin))));
+        if let Some(ActionMoment::Offset(_)) = own.end {
+            changes.push((own.element, "end", Some(written(begin + (times.end - times.begin)))));
+        }
+        let next = scene.script.next_sibling(action).filter(stays);
+        if followers == Followers::Stay && next.is_some() && !ends_with_another(scene, action) {
+            // The first of those in a row that go together.
+            let before = |own: &usize| scene.script.before_in_seq(*own).filter(|before| !stays(before));
+            let first = std::iter::successors(Some(action), before).last().unwrap_or(action);
+            let by = super::begin::usual_begin(scene, first) - times.end;
+            changes.extend(super::begin::kept_follower(scene, action, by));
+        }
+    }
+    let origins = ActionOrigins::gathered(scene, &moved, place_index(scene, place));
+    let mut draft = ScriptDraft::of(scene.script).with(&changes)?;
+    let mut elements: Vec<usize> =
+        moved.iter().map(|&action| scene.script.actions()[action].element).collect();
+    let mut place = place;
+    for at in 0..elements.len() {
+        let element = elements[at];
+        let numbers = MovedElement::new(draft.tree(), element, place);
+        draft = draft.then(|tree| move_to(tree, element, place, AttachedComments::Follow))?;
+        elements.iter_mut().for_each(|other| *other = numbers.after(*other));
+        place = ElementPlace::After(elements[at]);
+    }
+    let text = mixed(scene, draft, &origins)?.finish()?;
+    Ok(MovedToLane { text, left })
+}
+
+/// Refuses an action that does not go to the lane of a thing.
+fn may_go_onto(scene: &GestureScene<'_>, action: usize, onto: &str) -> Result<(), GestureRefusal> {
+    let element = scene.element(action)?;
+    if element.row.group != ElementGroup::Action || element.value("who").is_none() {
+        return refused(format!("<{}> belongs to no thing of the cast", element.row.name));
+    }
+    fits_onto(scene, element, onto)?;
+    keeps_prev(scene.script, [action])
+}
+
+/// The numbers of elements after one of them went to another place of the text.
+struct MovedElement {
+    /// Its number, and how many there are with those in it.
+    own: [usize; 2],
+    /// The number that it has there.
+    to: usize,
+}
+
+impl MovedElement {
+    fn new(tree: &ScriptTree, element: usize, place: ElementPlace) -> Self {
+        let elements = tree.elements();
+        let end_of = |element: usize| {
+            let range = &elements[element].range;
+            let inside = elements.iter().skip(element).take_while(|other| other.range.start < range.end);
+            element + inside.count()
+        };
+        let before = match place {
+            ElementPlace::First(near) => near + 1,
+            ElementPlace::After(near) => end_of(near),
+        };
+        let count = end_of(element) - element;
+        let to = if before > element { before.saturating_sub(count) } else { before };
+        Self { own: [element, count], to }
+    }
+
+    /// Returns the new number of an element.
+    fn after(&self, element: usize) -> usize {
+        let [own, count] = self.own;
+        if (own..own + count).contains(&element) {
+            return self.to + element - own;
+        }
+        let without = if element > own { element - count } else { element };
+        if without >= self.to { without + count } else { without }
     }
 }
 

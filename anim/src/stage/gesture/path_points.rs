@@ -1,4 +1,4 @@
-//! Points of paths, moved.
+//! Points of paths: moved, added, removed.
 
 use super::cast::set_on_thing;
 use super::draft::spliced_text;
@@ -39,22 +39,8 @@ pub fn path_point_splices(
     index: usize,
     position: DVec3,
 ) -> Result<TextSplices, GestureRefusal> {
-    let tree = script.tree();
-    let element = script.thing_element(path).filter(|&element| tree.elements()[element].row.name == "path");
-    let Some(element) = element else { return refused(format!("No path of the cast has the id \"{path}\"")) };
-    in_scene_texts(tree, element)?;
-    let Some(attribute) = tree.elements()[element].attribute("points") else {
-        return refused(format!("{path} follows a line: its points are those of the line"));
-    };
-    let written = attribute.value_range.clone();
-    let range = match script.project().filter(|_| tree.elements()[element].origin == ElementOrigin::Project) {
-        Some(project) => {
-            let own = written.start - SHARED..written.end - SHARED;
-            let range = point_range(project.tree().text(), own, index);
-            range.map(|range| range.start + SHARED..range.end + SHARED)
-        }
-        None => point_range(tree.text(), written, index),
-    };
+    let list = WrittenList::of(script, path)?;
+    let range = list.point(index).map(|range| list.in_script(range));
     let Some(range) = range else {
         return refused(format!("{path} has no such point"));
     };
@@ -91,6 +77,98 @@ pub fn path_points_splices(
 pub fn written_points(script: &StageScript, path: &str) -> Option<Vec<DVec3>> {
     let element = &script.tree().elements()[script.thing_element(path)?];
     points(element.value("points").filter(|_| element.row.name == "path")?)
+}
+
+/// Returns the replacements that add a point at `position`, meters, to a path of the cast, before the point at `index`; all others stay as they are written.
+/// The new text is not checked.
+///
+/// # Errors
+///
+/// As [`move_path_point`]; also where there is no point before that one, because a path does not get longer by this.
+pub fn add_path_point_splices(
+    script: &StageScript,
+    path: &str,
+    index: usize,
+    position: DVec3,
+) -> Result<TextSplices, GestureRefusal> {
+    let list = WrittenList::of(script, path)?;
+    let before = index.checked_sub(1).and_then(|before| list.point(before));
+    let (Some(before), Some(next)) = (before, list.point(index)) else {
+        return refused(format!("{path} has no such part"));
+    };
+    if position.abs().max_element() >= 1e6 {
+        return refused("The position is too far away");
+    }
+    let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
+    // The blanks between the points are those between these two.
+    let blanks = &list.text[before.end..next.start];
+    let range = list.in_script(before.end..before.end);
+    TextSplices::new(vec![TextSplice { range, text: format!("{blanks}{point}") }])
+        .ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
+}
+
+/// Returns the replacements that remove a point of a path of the cast; all others stay as they are written. The new text is not checked.
+///
+/// # Errors
+///
+/// As [`move_path_point`]; also where only two points are left.
+pub fn remove_path_point_splices(
+    script: &StageScript,
+    path: &str,
+    index: usize,
+) -> Result<TextSplices, GestureRefusal> {
+    let list = WrittenList::of(script, path)?;
+    let Some(own) = list.point(index) else { return refused(format!("{path} has no such point")) };
+    if list.point(2).is_none() {
+        return refused(format!("{path} has only two points: delete the path"));
+    }
+    let range = match index.checked_sub(1).and_then(|before| list.point(before)) {
+        Some(before) => before.end..own.end,
+        None => own.start..list.point(1).map_or(own.end, |next| next.start),
+    };
+    TextSplices::new(vec![TextSplice { range: list.in_script(range), text: String::new() }])
+        .ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
+}
+
+/// The list of numbers of a path of the cast, in the text that has it.
+struct WrittenList<'a> {
+    text: &'a str,
+    list: Range<usize>,
+    /// Difference between a position of the script and that in the text.
+    offset: usize,
+}
+
+impl<'a> WrittenList<'a> {
+    fn of(script: &'a StageScript, path: &str) -> Result<Self, GestureRefusal> {
+        let tree = script.tree();
+        let element =
+            script.thing_element(path).filter(|&element| tree.elements()[element].row.name == "path");
+        let Some(element) = element else {
+            return refused(format!("No path of the cast has the id \"{path}\""));
+        };
+        in_scene_texts(tree, element)?;
+        let Some(attribute) = tree.elements()[element].attribute("points") else {
+            return refused(format!("{path} follows a line: its points are those of the line"));
+        };
+        let written = attribute.value_range.clone();
+        let project = script.project().filter(|_| tree.elements()[element].origin == ElementOrigin::Project);
+        Ok(match project {
+            Some(project) => Self {
+                text: project.tree().text(),
+                list: written.start - SHARED..written.end - SHARED,
+                offset: SHARED,
+            },
+            None => Self { text: tree.text(), list: written, offset: 0 },
+        })
+    }
+
+    fn point(&self, index: usize) -> Option<Range<usize>> {
+        point_range(self.text, self.list.clone(), index)
+    }
+
+    fn in_script(&self, range: Range<usize>) -> Range<usize> {
+        range.start + self.offset..range.end + self.offset
+    }
 }
 
 /// Returns where the three numbers of a point are in `text`, which has a list of numbers with blanks between them at `list`. `None` where

@@ -19,12 +19,14 @@
 
 mod course;
 mod fit;
+mod points;
 mod read;
 mod samples;
 mod write;
 
 pub use course::path_points;
 pub use fit::fit;
+pub use points::{line_place, with_line_point, without_line_point};
 pub use read::{DrawnLine, DrawnLines};
 pub use samples::LineSamples;
 pub use write::{NewLine, points_text};

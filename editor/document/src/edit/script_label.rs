@@ -56,6 +56,8 @@ script_labels! {
     Rename = "Rename",
     MoveThing = "Move thing",
     MovePoint = "Move point",
+    AddPoint = "Add point",
+    RemovePoint = "Remove point",
     DropToGround = "Drop to the ground",
     TurnThing = "Turn thing",
     ScaleThing = "Scale thing",

@@ -4,6 +4,7 @@
 //! drag            freehand, with Shift straight
 //! click, click…   corners; Enter ends the line, Backspace takes a corner back
 //! Ctrl + drag     erases what is under the pointer
+//! Alt + drag      draws the path of a bone over time, where the pose of bones is drawn
 //! Esc, right      gives up the line that is drawn, or the tool
 //! ```
 
@@ -35,6 +36,8 @@ pub enum LineUse {
     Path,
     /// The pose of a chain of bones: its line of action.
     Pose,
+    /// The path of a bone over time.
+    Motion,
 }
 
 /// The outcome of an input.
@@ -88,6 +91,8 @@ pub struct LineControl {
     /// Height of the ground, meters.
     ground: f64,
     phase: LinePhase,
+    /// Whether what is drawn is the path of a bone, although the tool is for poses.
+    is_motion: bool,
     answer: Option<LineAnswer>,
 }
 
@@ -106,7 +111,7 @@ impl LineControl {
     pub fn surface(&self) -> LineSurface {
         match self.use_of {
             Some(LineUse::Path) => LineSurface::Ground,
-            Some(LineUse::Pose) => LineSurface::View,
+            Some(LineUse::Pose | LineUse::Motion) => LineSurface::View,
             Some(LineUse::Note) | None => self.surface,
         }
     }
@@ -201,6 +206,7 @@ impl LineControl {
     /// Ends a line. One without length is none.
     fn finish(&mut self, points: Vec<DVec3>, has_corners: bool) {
         let (Some(plane), Some(use_of)) = (self.plane(), self.use_of) else { return };
+        let use_of = if self.is_motion { LineUse::Motion } else { use_of };
         if let Some(stroke) = plane.stroke(points, has_corners) {
             self.answer = Some(LineAnswer::Drawn(use_of, stroke));
         }
@@ -215,6 +221,7 @@ impl LineControl {
             (self.phase, self.answer) = (LinePhase::Erase, Some(LineAnswer::EraserDown(at)));
             return;
         }
+        self.is_motion = modifiers.alt;
         match self.place_at(at) {
             Some(place) => self.phase = LinePhase::Pressed { at, place },
             None => self.answer = Some(LineAnswer::NoGround),
@@ -261,6 +268,15 @@ impl LineControl {
             LinePhase::Erase => self.answer = Some(LineAnswer::EraserUp),
         }
         InputFlow::Stop
+    }
+
+    /// Returns whether a press draws. With Alt the camera orbits, unless bones are posed.
+    fn draws_with(&self, modifiers: Modifiers) -> bool {
+        match self.use_of {
+            Some(LineUse::Pose | LineUse::Motion) => true,
+            Some(LineUse::Note | LineUse::Path) => !modifiers.alt,
+            None => false,
+        }
     }
 
     /// Gives up what is drawn; where nothing is, the tool.
@@ -328,8 +344,7 @@ impl BaseControl for LineControl {
 
     fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         match button {
-            // With Alt the camera orbits.
-            Button::Left if self.use_of.is_some() && !mouse.modifiers.alt => {
+            Button::Left if self.draws_with(mouse.modifiers) => {
                 self.press(mouse.at - self.corner, mouse.modifiers);
                 InputFlow::Stop
             }

@@ -37,6 +37,8 @@ pub enum ToolOutcome {
     Poses,
     /// Move the joint of the active bone to this position at this key.
     MoveKey(PathKey),
+    /// Select a point of a path or a line of the scene.
+    SelectPoint(PathPoint),
     /// Move a point of a path or a line of the scene to this position.
     MovePoint(PathPoint),
     /// Apply an edit. It replaces the edit that the same drag asked for before.

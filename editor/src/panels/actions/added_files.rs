@@ -2,9 +2,13 @@
 
 use super::scene_gizmo::joined;
 use super::scene_text::{add_all, step, with_hashes};
-use crate::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, SceneTarget, UnknownModels};
+use crate::panels::dropped_files::{
+    DropPlace, DroppedModel, DroppedModels, ModelForm, SceneTarget, UnknownModels,
+};
 use crate::panels::request::Effect;
-use crate::panels::scene::{ChangedThings, NewModel, NewThing, new_thing_splices, with_new_sound};
+use crate::panels::scene::{
+    ChangedThings, NewModel, NewThing, new_thing_splices, with_new_sound, with_new_thing,
+};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureScene, attach_splices, spliced_text};
@@ -29,27 +33,22 @@ pub(super) fn add(workspace: &mut Workspace, unknown: UnknownModels) -> Option<E
     }
 }
 
-/// Adds files to the scene whose models are known, in one step. A model without takes and skins is a prop. Models on a bone are props that it holds from the
-/// start of the scene, in its place; elsewhere the first one is put under the pointer, and each further one a meter to the right of the one before.
+/// Adds files to the scene whose models are known, in one step. A model without takes and skins is a prop. Models without a skin on a bone are props that it
+/// holds from the start of the scene, in its place; the first other one is put on the ground under the pointer, and each further one a meter to the right of the
+/// one before.
 pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> Option<Effect> {
     if target_of(workspace) != dropped.target {
         workspace.say(MessageSeverity::Warning, OTHER_SCENE);
         return None;
     }
-    if let (DropPlace::Bone(bone), false) = (&dropped.place, dropped.models.is_empty()) {
-        return hold(workspace, dropped, bone);
-    }
-    let first = match &dropped.place {
-        DropPlace::At(place) => Some(*place),
-        DropPlace::Bone(_) | DropPlace::Nowhere => None,
+    let is_held = |model: &DroppedModel| model.form != ModelForm::Figure;
+    let effect = match &dropped.place {
+        DropPlace::Bone(bone, _) if dropped.models.iter().any(is_held) => hold(workspace, dropped, bone),
+        place => {
+            let things = standing(dropped.models.iter(), place);
+            add_all(workspace, &things, &dropped.sounds, &dropped.hashes)
+        }
     };
-    let places = (0..).map(|beside| points_text(&[first? + f64::from(beside) * DVec3::X]));
-    let thing = |(dropped, at): (&DroppedModel, Option<String>)| {
-        let model = NewModel { file: dropped.name.clone(), at, scale: dropped.scale };
-        if dropped.is_figure { NewThing::Role(model) } else { NewThing::Prop(model) }
-    };
-    let things: Vec<NewThing> = dropped.models.iter().zip(places).map(thing).collect();
-    let effect = add_all(workspace, &things, &dropped.sounds, &dropped.hashes);
     if effect.is_some() {
         say_scales(workspace, &dropped.models);
     }
@@ -67,13 +66,33 @@ fn say_scales(workspace: &mut Workspace, models: &[DroppedModel]) {
     }
 }
 
-/// Adds props that a bone holds, and sounds.
+/// Returns models as things of the scene, a meter apart.
+fn standing<'a>(models: impl Iterator<Item = &'a DroppedModel>, place: &DropPlace) -> Vec<NewThing> {
+    let first = match place {
+        DropPlace::At(place) | DropPlace::Bone(_, place) => Some(*place),
+        DropPlace::Nowhere => None,
+    };
+    let places = (0..).map(|beside| points_text(&[first? + f64::from(beside) * DVec3::X]));
+    let thing = |(dropped, at): (&DroppedModel, Option<String>)| {
+        let model = NewModel { file: dropped.name.clone(), at, scale: dropped.scale };
+        match dropped.form {
+            ModelForm::Figure | ModelForm::Moving => NewThing::Role(model),
+            ModelForm::Object => NewThing::Prop(model),
+        }
+    };
+    models.zip(places).map(thing).collect()
+}
+
+/// Adds props that a bone holds, figures on the ground below it, and sounds.
 fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Option<Effect> {
+    let (figures, held): (Vec<&DroppedModel>, Vec<&DroppedModel>) =
+        dropped.models.iter().partition(|model| model.form == ModelForm::Figure);
+    let figures = standing(figures.into_iter(), &dropped.place);
     let mut added = Vec::new();
     let at = workspace.read().scene_time();
     let effect = step(workspace, |base| {
         let mut script = Arc::clone(&base.script);
-        for model in &dropped.models {
+        for model in held {
             let prop = NewModel { file: model.name.clone(), at: None, scale: model.scale };
             let (thing, id) = new_thing_splices(&script, &NewThing::Prop(prop))?;
             // The plan of the scene before has the same actions, apart from those that were added here.
@@ -81,6 +100,11 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
             let attach = attach_splices(&scene, &id, bone, StageTime::ZERO, None)?;
             let text = spliced_text(&script, joined(vec![thing, attach])?)?;
             script = Arc::new(script.reread(text)?);
+            added.push(id);
+        }
+        for figure in &figures {
+            let (next, id) = with_new_thing(&script, figure)?;
+            script = Arc::new(next);
             added.push(id);
         }
         for sound in &dropped.sounds {

@@ -6,7 +6,7 @@ use crate::panels::dropped_files::{DropPlace, FileUse};
 use crate::panels::request::{Effect, Request};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_document::{SceneFileKind, Source, formats, is_scene};
+use dragonfly_document::{SceneFileKind, SceneView, Source, formats, is_scene};
 use dragonfly_sound::is_sound_file;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
@@ -50,7 +50,10 @@ fn place_under_pointer(workspace: &mut Workspace) -> DropPlace {
     let rounded = |place: DVec3| (place * 100.0).round() / 100.0 + 0.0;
     let surface = scene_probe::pointer(workspace).and_then(|at| surface_at(workspace, at, &[]));
     match surface {
-        Some(surface) if surface.is_role && surface.bone.is_some() => DropPlace::Bone(surface.name()),
+        Some(surface) if surface.is_role && surface.bone.is_some() => {
+            let ground = workspace.read().scene().map_or(0.0, SceneView::ground);
+            DropPlace::Bone(surface.name(), rounded(surface.place).with_y(ground))
+        }
         Some(surface) if !surface.is_role => DropPlace::At(rounded(surface.place)),
         Some(_) | None => {
             scene_ground::pointed(workspace).map_or(DropPlace::Nowhere, |place| DropPlace::At(rounded(place)))

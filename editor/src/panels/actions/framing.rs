@@ -117,10 +117,12 @@ pub(super) fn set_shields(workspace: &mut Workspace, shields: Vec<Rect>) {
     }
 }
 
-fn place_tools(workspace: &mut Workspace) {
+pub(super) fn place_tools(workspace: &mut Workspace) {
     let point = |at: Pos2| Vec2::new(at.x, at.y);
     let area = |rect: Rect| Area::new(point(rect.min), point(rect.max));
     let viewport = workspace.camera.viewport();
-    let shields = workspace.camera.shields().iter().map(|rect| area(rect.intersect(viewport)));
+    // Those over the other one of two views are none of this one.
+    let over = workspace.camera.shields().iter().filter(|rect| rect.intersects(viewport));
+    let shields = over.map(|rect| area(rect.intersect(viewport)));
     workspace.tools.place(area(viewport), shields, workspace.camera.camera());
 }

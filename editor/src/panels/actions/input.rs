@@ -1,6 +1,9 @@
 //! Input of the viewport: events reach the tools as they happen, and the resulting effects are passed on at once.
 
-use super::{locks, playback, scene_camera, scene_focus, scene_gizmo, scene_lines, scene_points, tools};
+use super::{
+    locks, playback, scene_camera, scene_focus, scene_gizmo, scene_lines, scene_path_points, scene_picks,
+    scene_points, second_view, tools,
+};
 use crate::control::path_point::PathKey;
 use crate::control::{Button, InputEvent, Key, ToolOutcome, ViewportOutcome};
 use crate::panels::request::Effect;
@@ -28,12 +31,16 @@ pub(in crate::panels) fn input(
         workspace.stage.focus(None);
         return true;
     }
+    second_view::follow_pointer(workspace, event, effects);
     let pressed = event == InputEvent::MouseDown(Button::Left);
     if pressed && workspace.player.is_playing() && workspace.tools.controls().over_handle() {
         // Playback must not move a handle that is being dragged.
         workspace.player.set_now(Instant::now());
         playback::pause(workspace);
         tools::sync_gizmo(workspace);
+    }
+    if pressed && scene_path_points::is_add(workspace) && scene_path_points::add(workspace, effects) {
+        return true;
     }
     scene_lines::follow_surface(workspace, event);
     let taken = workspace.tools.input(event, workspace.camera.camera());
@@ -68,6 +75,7 @@ fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
 fn pick(workspace: &mut Workspace, at: Pos2, choice: Choice, effects: &mut Vec<Effect>) {
     match workspace.stage.focused_camera().is_some() {
         true => effects.extend(scene_focus::pick(workspace, at, choice)),
+        false if scene_picks::pick(workspace, at, choice) => {}
         false => effects.push(Effect::Pick(at, choice)),
     }
 }
@@ -86,6 +94,9 @@ fn take_tool_outcome(workspace: &mut Workspace, outcome: ToolOutcome, effects: &
             if let Some(edit) = path_edit(workspace, key) {
                 send(workspace, edit, effects);
             }
+        }
+        ToolOutcome::SelectPoint(point) => {
+            workspace.scene.lines_mut().select_point(Some((point.owner, point.index)));
         }
         ToolOutcome::MovePoint(point) => scene_points::send(workspace, &point, effects),
         ToolOutcome::Line(answer) => effects.extend(scene_lines::answered(workspace, answer)),

@@ -1,6 +1,6 @@
 //! Leaving a scene and returning to it: its file is read again, or one of its models is edited.
 
-use super::{playback, scene};
+use super::{keys, playback, scene};
 use crate::panels::scene::LeftScene;
 use crate::panels::workspace::Workspace;
 use dragonfly_picture::between;
@@ -12,6 +12,7 @@ pub(super) fn leave(workspace: &Workspace) -> Option<LeftScene> {
         path: view.file.path.clone()?,
         editing: workspace.scene.left(),
         time: workspace.player.time(),
+        range: workspace.keys.range(),
         is_playing: workspace.player.is_playing(),
         camera: workspace.stage.is_framed().then(|| *workspace.camera.free()),
         through: workspace.camera.through().clone(),
@@ -33,6 +34,7 @@ pub(super) fn restore(left: LeftScene, workspace: &mut Workspace) {
         workspace.camera.set_free(camera);
     }
     workspace.camera.set_through(left.through);
+    keys::set_range(workspace, left.range);
     let (start, length) = workspace.read().scene_bounds().unwrap_or((0.0, f32::MAX));
     playback::seek(workspace, between(left.time, start, start + length));
     workspace.player.set_playing(left.is_playing, workspace.settings.speed, workspace.settings.repeat);

@@ -14,9 +14,9 @@ use glam::{Quat, Vec3};
 
 /// Bones that turn, from the first one to the one above the last joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct BoneChain {
-    root: BoneIndex,
-    end: BoneIndex,
+pub(super) struct BoneChain {
+    pub(super) root: BoneIndex,
+    pub(super) end: BoneIndex,
 }
 
 /// Begins to draw the line of action of the selected bones; a second time ends it.
@@ -36,7 +36,7 @@ pub(in crate::panels) fn choose(workspace: &mut Workspace) {
     line.choose(Some(LineUse::Pose));
     workspace.say(
         MessageSeverity::Info,
-        "Draw the line along which the selected bones lie; click corners and end with Enter, or press Esc to stop",
+        "Draw the line along which the selected bones lie, or with Alt the path of their end over time; click corners and end with Enter, or press Esc to stop",
     );
 }
 
@@ -95,7 +95,7 @@ fn chain(workspace: &mut Workspace) -> Option<BoneChain> {
 }
 
 /// Returns the chain of selected bones: from the first one to the joint below the last one, if it has one joint below, and to the last one otherwise.
-fn chain_of(skeleton: &Skeleton, selected: &[BoneIndex]) -> Result<BoneChain, &'static str> {
+pub(super) fn chain_of(skeleton: &Skeleton, selected: &[BoneIndex]) -> Result<BoneChain, &'static str> {
     let parent = |bone: &BoneIndex| skeleton.bones.get(*bone as usize).and_then(|own| own.parent);
     // A parent comes before its children.
     let (Some(&root), Some(&last)) = (selected.iter().min(), selected.iter().max()) else {

@@ -141,6 +141,12 @@ pub(super) fn follow(workspace: &mut Workspace, answered: u64) {
         let new = ThroughCamera::Of(new.into());
         workspace.camera.set_through(new);
     }
+    if let ThroughCamera::Of(camera) = workspace.camera.other_through()
+        && let Some(new) = renamed.new_name(camera)
+    {
+        let new = ThroughCamera::Of(new.into());
+        workspace.camera.set_other_through(new);
+    }
     let Some(script) = scene.as_ref().and_then(|scene| scene.script.as_ref()) else { return };
     let rate = script.rate().per_second().round() as u32;
     if workspace.frame_rate.get() != rate {

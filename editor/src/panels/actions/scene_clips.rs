@@ -1,7 +1,7 @@
 //! Commands on the selected action of a scene.
 
 use super::scene_text::{gesture, step as step_of_texts};
-use super::{playback, scene_lines};
+use super::{keys, playback, scene_lines, scene_path_points};
 use crate::panels::request::Effect;
 use crate::panels::scene::shots::shots_of;
 use crate::panels::scene::{ChangedThings, SceneBase, move_label};
@@ -88,6 +88,21 @@ pub(in crate::panels) fn end_to_playhead(workspace: &mut Workspace) -> Option<Ef
     })
 }
 
+/// Lets the part of time play and loop in which the selected actions are; without them, the part that the timeline shows.
+pub(in crate::panels) fn loop_selected(workspace: &mut Workspace) {
+    let (editing, context) = (&workspace.scene, workspace.read());
+    let lanes = editing.lanes();
+    let bars = editing.actions().iter().filter_map(|&action| Some(lanes.bar_of(action)?.1));
+    let of_bars =
+        bars.map(|bar| [bar.begin, bar.end]).reduce(|all, bar| [all[0].min(bar[0]), all[1].max(bar[1])]);
+    let window = editing.window();
+    let range = match of_bars.filter(|[from, to]| to > from) {
+        Some(ends) => ends.map(|time| context.playhead_at(time)),
+        None => [window.start as f32, (window.start + window.length) as f32],
+    };
+    keys::set_range(workspace, Some(range));
+}
+
 /// Duplicates the selected actions after the last of them ends, or the selected things, or the selected line.
 pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
     if workspace.scene.lines().selected().is_some() {
@@ -113,8 +128,11 @@ pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> 
     effect
 }
 
-/// Deletes the selected actions, or the selected things, or the selected line. With `lift` what follows an action stays where it is.
+/// Deletes the selected point of a path or a line, or the selected actions, things or lines. With `lift` what follows an action stays where it is.
 pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option<Effect> {
+    if scene_path_points::is_any_selected(workspace) {
+        return scene_path_points::remove(workspace);
+    }
     if workspace.scene.lines().selected().is_some() {
         return scene_lines::delete(workspace);
     }

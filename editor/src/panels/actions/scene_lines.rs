@@ -3,7 +3,7 @@
 use super::line_edit::{NO_PROJECT, lines_edit, lines_edit_of};
 use super::scene_probe::{PointedSurface, pointer, surface_at};
 use super::scene_text::{self, step};
-use super::{pose_line, tools};
+use super::{motion_stroke, pose_line, tools};
 use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::control::{Button, InputEvent};
 use crate::panels::request::Effect;
@@ -51,6 +51,7 @@ pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<
         LineAnswer::Drawn(LineUse::Path, stroke) => draw_path(workspace, &stroke),
         LineAnswer::Drawn(LineUse::Note, stroke) => draw_note(workspace, &stroke),
         LineAnswer::Drawn(LineUse::Pose, stroke) => pose_line::pose(workspace, &stroke),
+        LineAnswer::Drawn(LineUse::Motion, stroke) => motion_stroke::draw(workspace, &stroke),
         LineAnswer::EraserDown(at) => {
             put_eraser(workspace, at);
             None
@@ -72,6 +73,10 @@ pub(super) fn perform(workspace: &mut Workspace, request: LineRequest) -> Option
     match request {
         LineRequest::Select(line) => {
             workspace.scene.select_line(line);
+            None
+        }
+        LineRequest::Choose(lines, choice) => {
+            workspace.scene.select_lines(&lines, choice);
             None
         }
         LineRequest::Rename(line) => {
@@ -206,9 +211,15 @@ pub(super) fn place_of_selected(workspace: &mut Workspace) -> Option<RigidPlace>
 
 /// Begins to erase the lines that are shown now.
 fn put_eraser(workspace: &mut Workspace, at: Vec2) {
+    *workspace.scene.lines_mut().eraser_mut() = seen_lines(workspace, at);
+    move_eraser(workspace, at);
+}
+
+/// Returns the lines that are not hidden, as they are seen from a position of the viewport; `None` where none are shown.
+pub(super) fn seen_lines(workspace: &mut Workspace, at: Vec2) -> Option<LineEraser> {
     let lines = workspace.read().scene().and_then(|scene| scene.lines.clone());
     let view = GizmoView::new(workspace.camera.camera(), workspace.tools.controls().picture().size);
-    let eraser = lines.filter(|_| workspace.settings.look.lines).map(|lines| {
+    lines.filter(|_| workspace.settings.look.lines).map(|lines| {
         let named = lines.list().iter().enumerate();
         let seen = named.filter(|(index, line)| !workspace.scene.lines().is_hidden(&line_name(*index, line)));
         let seen: Vec<usize> = seen.map(|(index, _)| index).collect();
@@ -220,9 +231,7 @@ fn put_eraser(workspace: &mut Workspace, at: Vec2) {
         });
         let placed: Vec<(usize, Option<RigidPlace>)> = placed.collect();
         LineEraser::new(lines, &placed, view, at.as_dvec2())
-    });
-    *workspace.scene.lines_mut().eraser_mut() = eraser;
-    move_eraser(workspace, at);
+    })
 }
 
 /// Notes the lines that the eraser touches on its way to a position.
@@ -310,15 +319,22 @@ fn free_line_name(scene: &SceneView) -> Option<String> {
     (1_u32..).map(|number| format!("line-{number}")).find(|id| !taken(id))
 }
 
-/// Deletes the selected line.
+/// Deletes the selected lines.
 pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
-    match workspace.scene.lines().selected().map(Box::from) {
-        Some(line) => perform(workspace, LineRequest::Delete(line)),
-        None => {
-            workspace.say(MessageSeverity::Info, "No line is selected");
-            None
-        }
+    let names = workspace.scene.lines().selected_list().to_vec();
+    if names.is_empty() {
+        workspace.say(MessageSeverity::Info, "No line is selected");
+        return None;
     }
+    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
+    let effect = edit_lines(workspace, &scene, ScriptLabel::EraseLine, |lines| {
+        let removed = names.iter().map(|name| lines.removed(line_named(lines, name)?));
+        TextSplices::joined(removed.collect::<Option<Vec<_>>>()?)
+    });
+    if effect.is_some() {
+        workspace.scene.select_line(None);
+    }
+    effect
 }
 
 /// Returns the edit of the file of lines; a project without one gets it in the same step.

@@ -82,7 +82,7 @@ fn line_edit(workspace: &mut Workspace, line: &str, point: &PathPoint) -> Result
     reshaped_edit(&scene, ScriptLabel::MovePoint, line, |line| moved(line, &point)).map_err(GestureRefusal)
 }
 
-fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, GestureRefusal> {
+pub(super) fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, GestureRefusal> {
     let scene = workspace.model.view().and_then(|view| view.scene.clone());
     scene.ok_or_else(|| GestureRefusal("No scene is open".to_owned()))
 }

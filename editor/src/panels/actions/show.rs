@@ -58,6 +58,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
         let before = BeforeReload::of(workspace, &view);
+        workspace.camera.activate(false);
         let left = left_scene::leave(workspace).or(workspace.left_scene.take());
         workspace.stage.reset();
         workspace.probe.clear();

@@ -28,6 +28,8 @@ const COUNTERPARTS: &[(Id, Id)] = &[
     (Id::NextTake, Id::NextAction),
     (Id::RangeFromHere, Id::ClipStartToPlayhead),
     (Id::RangeToHere, Id::ClipEndToPlayhead),
+    (Id::RangeOfKeys, Id::LoopActions),
+    (Id::RangeWhole, Id::LoopWhole),
     (Id::HideSelected, Id::HideThings),
     (Id::HideOthers, Id::HideOtherThings),
     (Id::ShowAll, Id::ShowAllThings),

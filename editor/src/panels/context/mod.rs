@@ -113,8 +113,14 @@ pub struct PanelContext<'a> {
     pub camera: Camera,
     /// The viewport, points.
     pub viewport: Rect,
-    /// The rectangle of the second view of a scene, points; `None` without one.
+    /// The rectangle of the other one of two views of a scene, points; `None` while there is one. Camera and viewport are those of the active one.
     pub second_view: Option<egui::Rect>,
+    /// Whether the active one of two views is the second one.
+    pub is_second_active: bool,
+    /// The free camera of the view that is not active.
+    pub other_camera: Camera,
+    /// The camera of the scene through which that looks.
+    pub other_through: &'a ThroughCamera,
     /// The scene around the model that is edited in it, where it is shown.
     pub around: Option<&'a Arc<SceneAround>>,
     /// The tools of the viewport, their drag, motion path and IK.

@@ -27,7 +27,7 @@ impl<'a> PanelContext<'a> {
         out.extend(points.points().iter().enumerate().map(|(index, point)| LineHandle {
             place: point.place.as_vec3(),
             arm: point.arm.map(|arm| arm.as_vec3()),
-            is_marked: points.is_marked(index),
+            is_marked: points.is_marked(index) || self.scene_editing.lines().is_point_selected(point),
         }));
     }
 

@@ -187,7 +187,7 @@ impl Head {
     pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
         let Sheet { areas, scale, context, .. } = *sheet;
         self.scrub.show(ui, areas.head, "Time track", scale, context, requests);
-        range_ends(ui, areas, scale, context, requests);
+        range_ends(ui, areas.head, scale, context, requests);
         self.bar(ui, sheet, requests);
     }
 
@@ -305,28 +305,26 @@ pub(in crate::panels) fn to_frame(time: f32, context: &PanelContext<'_>) -> f32 
 }
 
 /// Draws the ends of the play range, which can be dragged.
-fn range_ends(
+pub(in crate::panels) fn range_ends(
     ui: &Ui,
-    areas: &DopeAreas,
+    head: Rect,
     scale: &TimeScale,
     context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) {
     let Some([from, to]) = context.keys.range() else { return };
     let theme = Theme::of(ui);
-    let painter = ui.painter().with_clip_rect(areas.head);
-    let band = Rect::from_min_max(
-        pos2(scale.x_of(from), areas.head.bottom() - 3.0),
-        pos2(scale.x_of(to), areas.head.bottom()),
-    );
+    let painter = ui.painter().with_clip_rect(head);
+    let band =
+        Rect::from_min_max(pos2(scale.x_of(from), head.bottom() - 3.0), pos2(scale.x_of(to), head.bottom()));
     painter.rect_filled(band, CornerRadius::ZERO, theme.warning.gamma_multiply(0.5));
     for (time, first) in [(from, true), (to, false)] {
         let x = scale.x_of(time);
         let inward = if first { 1.0 } else { -1.0 };
         let name = if first { "Start of the play range" } else { "End of the play range" };
-        let middle = pos2(x + inward * 4.0, areas.head.bottom() - 6.0);
+        let middle = pos2(x + inward * 4.0, head.bottom() - 6.0);
         let grip = Rect::from_center_size(middle, vec2(10.0, 12.0));
-        if !areas.head.contains(grip.center()) {
+        if !head.contains(grip.center()) {
             continue;
         }
         let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
@@ -334,11 +332,8 @@ fn range_ends(
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(name);
         let lit = response.hovered() || response.dragged();
         let color = if lit { theme.warning } else { theme.warning.gamma_multiply(0.8) };
-        let corners = vec![
-            pos2(x, areas.head.bottom()),
-            pos2(x, areas.head.bottom() - 9.0),
-            pos2(x + inward * 6.0, areas.head.bottom()),
-        ];
+        let corners =
+            vec![pos2(x, head.bottom()), pos2(x, head.bottom() - 9.0), pos2(x + inward * 6.0, head.bottom())];
         painter.add(egui::Shape::convex_polygon(corners, color, Stroke::NONE));
         if response.dragged_by(PointerButton::Primary)
             && let Some(pointer) = response.interact_pointer_pos()

@@ -36,7 +36,7 @@ use marks::KeysMesh;
 use rows::DopeRows;
 use sheet::Sheet;
 
-pub(super) use head::{Scrub, ScrubRuler, ticks, to_frame};
+pub(super) use head::{Scrub, ScrubRuler, range_ends, ticks, to_frame};
 pub(super) use marks::Pen;
 pub(super) use menu::show as key_menu;
 pub(super) use overlay::{line as playhead, shade};

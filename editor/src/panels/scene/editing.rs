@@ -227,6 +227,13 @@ impl SceneEditing {
         self.lines.select(line);
     }
 
+    /// Replaces, adds or toggles drawn lines. With a line nothing else is selected.
+    pub(in crate::panels) fn select_lines(&mut self, lines: &[Box<str>], choice: Choice) {
+        self.things.replace(Vec::new());
+        self.actions = ActionSelection::default();
+        self.lines.choose(lines, choice);
+    }
+
     /// Selects an action and the thing that acts.
     pub(in crate::panels) fn select_action(&mut self, action: Option<usize>) {
         self.select_actions(action.as_slice(), Choice::Replace);

@@ -14,6 +14,8 @@ pub struct LeftScene {
     pub editing: SceneEditing,
     /// Time of the playhead, seconds.
     pub time: f32,
+    /// The part of time that plays, seconds; `None` for all.
+    pub range: Option<[f32; 2]>,
     /// Whether it was playing.
     pub is_playing: bool,
     /// The free camera, if the scene had been framed.

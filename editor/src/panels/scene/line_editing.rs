@@ -3,10 +3,12 @@
 use super::line_eraser::LineEraser;
 use super::line_look::{PathDrawing, line_looks, path_drawings};
 use super::path_handles::path_handles;
-use crate::control::path_point::PathPoint;
+use super::thing_selection::ThingSelection;
+use crate::control::path_point::{PathPoint, PathPointOwner};
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
 use dragonfly_anim::stage::{RigidPlace, StagePlan};
 use dragonfly_document::SceneView;
+use dragonfly_document::bones::Choice;
 use dragonfly_picture::LineLook;
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -14,8 +16,10 @@ use std::sync::Arc;
 /// The state of the lines of a scene; it contains nothing of the document.
 #[derive(Clone, Debug, Default)]
 pub struct LineEditing {
-    /// Name of the selected line.
-    selected: Option<Box<str>>,
+    /// Names of the selected lines, the active one last.
+    selected: ThingSelection,
+    /// The point that was pressed last: what it belongs to, and its number there.
+    point: Option<(PathPointOwner, usize)>,
     hidden: BTreeSet<Box<str>>,
     /// The line of which the list is asked to let its name be typed.
     renaming: Option<Box<str>>,
@@ -88,7 +92,7 @@ impl PathsBase {
 #[derive(Clone, Debug)]
 struct LinesBase {
     lines: Option<Arc<DrawnLines>>,
-    selected: Option<Box<str>>,
+    selected: Vec<Box<str>>,
     hidden: BTreeSet<Box<str>>,
 }
 
@@ -97,7 +101,7 @@ impl LinesBase {
     fn is_same(&self, scene: Option<&SceneView>, now: &LineEditing) -> bool {
         let of_lines = |lines: Option<&Arc<DrawnLines>>| lines.map(Arc::as_ptr);
         of_lines(self.lines.as_ref()) == of_lines(scene.and_then(|scene| scene.lines.as_ref()))
-            && (&self.selected, &self.hidden) == (&now.selected, &now.hidden)
+            && (&*self.selected, &self.hidden) == (now.selected.list(), &now.hidden)
     }
 }
 
@@ -116,9 +120,29 @@ pub fn line_named(lines: &DrawnLines, name: &str) -> Option<usize> {
 }
 
 impl LineEditing {
-    /// Returns the name of the selected line.
+    /// Returns the name of the active line: the one that was selected last.
     pub fn selected(&self) -> Option<&str> {
-        self.selected.as_deref()
+        self.selected.list().last().map(|line| &**line)
+    }
+
+    /// Returns the names of the selected lines, the active one last.
+    pub fn selected_list(&self) -> &[Box<str>] {
+        self.selected.list()
+    }
+
+    /// Returns whether a line is selected.
+    pub fn is_selected(&self, line: &str) -> bool {
+        self.selected.contains(line)
+    }
+
+    /// Returns whether a point of a path or a line is selected.
+    pub fn is_point_selected(&self, point: &PathPoint) -> bool {
+        self.point.as_ref().is_some_and(|(owner, index)| (owner, *index) == (&point.owner, point.index))
+    }
+
+    /// Selects a point of a path or a line, or none.
+    pub(in crate::panels) fn select_point(&mut self, point: Option<(PathPointOwner, usize)>) {
+        self.point = point;
     }
 
     /// Returns whether a line is hidden.
@@ -141,7 +165,13 @@ impl LineEditing {
     }
 
     pub(super) fn select(&mut self, line: Option<Box<str>>) {
-        self.selected = line;
+        self.selected.replace(line.into_iter().collect());
+        self.point = None;
+    }
+
+    pub(super) fn choose(&mut self, lines: &[Box<str>], choice: Choice) {
+        self.selected.choose(lines, choice);
+        self.point = None;
     }
 
     /// Returns the line whose name is to be typed.
@@ -196,11 +226,12 @@ impl LineEditing {
         if !same_lines {
             let base = LinesBase {
                 lines: scene.and_then(|scene| scene.lines.clone()),
-                selected: self.selected.clone(),
+                selected: self.selected.list().to_vec(),
                 hidden: self.hidden.clone(),
             };
             let lines = base.lines.as_ref();
-            let looks = lines.map(|lines| line_looks(lines, |name| self.is_hidden(name), self.selected()));
+            let looks = lines
+                .map(|lines| line_looks(lines, |name| self.is_hidden(name), |name| self.is_selected(name)));
             self.lines = (Some(base), looks.unwrap_or_default());
         }
         let editable = |id: &&str| !things.hidden.contains(*id) && !things.locked.contains(*id);

@@ -67,6 +67,14 @@ impl LineEraser {
         });
     }
 
+    /// Returns the position in the file of the line that is nearest to the last position of the pointer, of those that are shown at `time` and within reach.
+    pub(in crate::panels) fn nearest(&self, time: StageTime) -> Option<usize> {
+        let near = self.left.iter().filter(|line| is_shown(&self.lines.list()[line.index], time));
+        let near = near.filter(|line| line.is_near([self.at; 2]));
+        near.min_by(|one, other| one.distance(self.at).total_cmp(&other.distance(self.at)))
+            .map(|line| line.index)
+    }
+
     /// Returns the lines of the file, and the positions of those that were touched.
     pub(in crate::panels) fn hits(&self) -> (&Arc<DrawnLines>, &[usize]) {
         (&self.lines, &self.hits)
@@ -86,6 +94,11 @@ impl ShownLine {
             Some(around.map_or([at; 2], |[min, max]| [min.min(at), max.max(at)]))
         });
         Self { index, of, points, around }
+    }
+
+    fn distance(&self, at: DVec2) -> f64 {
+        let pieces = self.points.windows(2).filter_map(|pair| Some(to_piece(at, [pair[0]?, pair[1]?])));
+        pieces.fold(f64::INFINITY, f64::min)
     }
 
     fn is_near(&self, way: [DVec2; 2]) -> bool {

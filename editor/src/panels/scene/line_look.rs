@@ -35,15 +35,15 @@ const MOST_POINTS: usize = 1_000_000;
 /// Time in which the direction at a tick is measured, seconds.
 const MOMENT: f64 = 0.05;
 
-/// Returns the lines of a project as they are drawn, without the hidden ones. The selected one is wider.
+/// Returns the lines of a project as they are drawn, without the hidden ones. The selected ones are wider.
 pub(super) fn line_looks(
     lines: &DrawnLines,
     is_hidden: impl Fn(&str) -> bool,
-    selected: Option<&str>,
+    is_selected: impl Fn(&str) -> bool,
 ) -> Vec<LineLook> {
     let named = lines.list().iter().enumerate().map(|(index, line)| (line_name(index, line), line));
     let seen = named.filter(|(name, _)| !is_hidden(name));
-    let wider = |name: &str| if selected == Some(name) { WIDER } else { 0.0 };
+    let wider = |name: &str| if is_selected(name) { WIDER } else { 0.0 };
     seen.map(|(name, line)| LineLook::of_line(line, wider(&name))).collect()
 }
 

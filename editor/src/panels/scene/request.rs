@@ -38,6 +38,8 @@ pub struct DraggedTake {
 pub enum LineRequest {
     /// Selects a line, or none.
     Select(Option<Box<str>>),
+    /// Selects lines: replaces, adds or toggles them.
+    Choose(Vec<Box<str>>, Choice),
     /// Hides a line, or shows it again.
     Hide(Box<str>, bool),
     /// Sets an attribute of a line, or removes it.

@@ -47,7 +47,7 @@ impl Panel for Viewport {
     }
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let rect = second::show(ui, ui.max_rect(), context, requests);
+        let second::ViewPlaces { first, active: rect } = second::show(ui, ui.max_rect(), context, requests);
         requests.push(Request::Viewport(rect));
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));
@@ -62,15 +62,15 @@ impl Panel for Viewport {
         if context.view.is_some() {
             image_frame::show(ui, rect, context);
             overlay::drawn(ui, rect, context);
-            let tools = toolbar::toolbar(ui, rect, context, requests);
+            let tools = toolbar::toolbar(ui, first, context, requests);
             shields.push(tools);
-            shields.extend(tools::toolbar(ui, rect, context, requests));
+            shields.extend(tools::toolbar(ui, first, context, requests));
             shields.extend(axes::axes(ui, rect, context, requests));
-            caption(ui, rect, tools.left(), context);
+            caption(ui, first, tools.left(), context);
             readout::show(ui, rect, context);
         }
         requests.push(Request::Shields(shields));
-        cards::show(ui, rect, context, requests);
+        cards::show(ui, first, context, requests);
     }
 }
 
@@ -109,16 +109,23 @@ fn caption(ui: &Ui, rect: Rect, right: f32, context: &PanelContext<'_>) {
     }
 }
 
-/// Returns the name of the camera through which the viewport looks; `None` for the free one.
+/// Returns the name of the camera through which the first view looks; `None` for the free one.
 fn camera_title(context: &PanelContext<'_>) -> Option<String> {
-    let attached = if context.is_camera_attached { "  ·  camera to view" } else { "" };
-    match context.through {
-        ThroughCamera::Free => None,
-        ThroughCamera::Shot => {
-            let id = context.shot_camera().unwrap_or_default();
-            Some(format!("shot: {id}{attached}"))
+    match context.is_second_active {
+        true => title_through(context, context.other_through),
+        false => {
+            let attached = if context.is_camera_attached { "  ·  camera to view" } else { "" };
+            title_through(context, context.through).map(|title| format!("{title}{attached}"))
         }
-        ThroughCamera::Of(id) => Some(format!("{id}{attached}")),
+    }
+}
+
+/// Returns the name of the camera through which a view looks; `None` for the free one.
+fn title_through(context: &PanelContext<'_>, through: &ThroughCamera) -> Option<String> {
+    match through {
+        ThroughCamera::Free => None,
+        ThroughCamera::Shot => Some(format!("shot: {}", context.shot_camera().unwrap_or("no camera"))),
+        ThroughCamera::Of(id) => Some(id.to_string()),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::panels::actions::{
-    scene, scene_attach, scene_clipboard, scene_clips, scene_focus, scene_ground, scene_lines, scene_text,
-    scene_time,
+    keys, scene, scene_attach, scene_clipboard, scene_clips, scene_focus, scene_ground, scene_lines,
+    scene_text, scene_time,
 };
 use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
@@ -22,7 +22,7 @@ commands! {
     AddSceneSound => When::Scene, "Add sound…", [], "Adds a sound to the scene, which begins at the playhead (audio, music)", |w| Some(Effect::Choose(FileChoice::SceneSound, w.read().model_folder()));
     LineAsPath => When::Scene, "Use line as path", [], "Adds a path along the selected line, which roles can follow", scene_lines::use_as_path;
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking; cameras, props, lights and effects can follow it too", scene_lines::walk_along;
-    DeleteLine => When::Scene, "Delete line", [], "Deletes the selected line of the project", scene_lines::delete;
+    DeleteLine => When::Scene, "Delete line", [], "Deletes the selected lines of the project", scene_lines::delete;
     SceneRename => When::ThingOrLine, "Rename thing or line", [], "Renames the selected thing wherever the script names it, or the selected line", |w| { scene::rename(w); None };
     HideThings => When::Thing, "Hide things", [], "Hides the selected things in the viewport; movies show them", |w| { scene::hide(w, false); None };
     HideOtherThings => When::Thing, "Hide other things", [], "Hides all things except the selected ones", |w| { scene::hide(w, true); None };
@@ -30,7 +30,7 @@ commands! {
     LockThings => When::Thing, "Lock things", [], "Locks or unlocks the selected things, so that they are not changed with the mouse", |w| { scene::toggle_lock(w); None };
     DropToGround => When::Thing, "Drop to the ground", [], "Moves the selected roles, props and marks up or down so that they stand on the ground", scene_ground::drop_selected;
     ToggleGroundSnap => When::Always, "Snap to the ground", [], "Keeps roles, props and marks on the ground while they are moved", |w| { scene_ground::toggle(w); None };
-    AttachHere => When::Thing, "Attach to the bone under the pointer", [key(NONE, Key::J)], "Attaches the selected things to the bone or thing under the pointer, or to the one selected last, from the playhead on; they stay where they are. A model file dropped on a bone sits in its place instead", scene_attach::attach;
+    AttachHere => When::Thing, "Attach to the bone under the pointer", [key(NONE, Key::J)], "Attaches the selected things to the bone or thing under the pointer, or to the one selected last, from the playhead on; they stay where they are. An object dropped as a file on a bone sits in its place instead", scene_attach::attach;
     DetachHere => When::Thing, "Detach", [key(ALT, Key::J)], "Detaches the selected things at the playhead; they stay where they are", scene_attach::detach;
     PickFocus => When::Scene, "Pick the focus", [], "Lets the next click set the focus of the camera of the view, or of the selected one: a bone, or with Shift and elsewhere a distance", |w| { scene_focus::begin(w); None };
     CutHere => When::Scene, "Cut to the next camera here", [], "Inserts a shot of the next camera at the playhead", scene_clips::cut_to_next;
@@ -51,10 +51,14 @@ commands! {
     CopyActions => When::Clip, "Copy actions", [], "Copies the selected actions; Paste inserts them at the playhead, also for another role", scene_clipboard::copy;
     PasteActions => When::Scene, "Paste actions", [], "Pastes the copied actions at the playhead: for the selected role or prop, or, while an action is selected, for the things they were copied from", |_| Some(Effect::PastePose { mirrored: false });
     SceneDuplicate => When::SceneItem, "Duplicate action, thing or line", [], "Duplicates the selected actions after the last of them ends, or the selected thing or line", scene_clips::duplicate;
-    SceneDelete => When::SceneItem, "Delete action, things or line", [], "Deletes the selected actions, the selected things with the actions that name them, or the selected line; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
+    SceneDelete => When::SceneItem, "Delete action, things or line", [], "Deletes the selected actions, the selected things with the actions that name them, the selected lines, or the point of a path or line that was clicked last; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
     SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected actions; what follows stays where it is", |w| scene_clips::delete(w, true);
     ToggleSceneRipple => When::Always, "Ripple", [], "Lets what follows in a sequence move along with an action that is dragged; hold 2 for the other way", |w| { scene::toggle_ripple(w); None };
     EditSceneModel => When::Thing, "Edit takes and bones", [], "Opens the model of the selected thing, in place: its takes and bones", |w| { let thing = w.scene.things().last().cloned()?; scene::edit_model(w, &thing) };
     BackToScene => When::Always, "Back to scene", [], "Shows the scene again whose model is edited", scene::show_scene;
+    LoopFromHere => When::Scene, "Start loop range here", [], "Sets the start of the part of the scene that plays and loops to the playhead", |w| { keys::range_from_here(w); None };
+    LoopToHere => When::Scene, "End loop range here", [], "Sets the end of the part of the scene that plays and loops to the playhead", |w| { keys::range_to_here(w); None };
+    LoopActions => When::Scene, "Set loop range to selection", [], "Lets the part of the scene play and loop in which the selected actions are, or the part that the timeline shows", |w| { scene_clips::loop_selected(w); None };
+    LoopWhole => When::Scene, "Play the whole scene", [], "Clears the loop range", |w| { keys::clear_range(w); None };
     FitScene => When::Scene, "Show the whole scene", [], "Shows all of the scene in its timeline", |w| { scene::fit(w); None };
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::control::Catch;
 use crate::control::line::{LineSurface, LineUse};
-use crate::panels::actions::{pose_line, scene_lines, tools};
+use crate::panels::actions::{motion_stroke, pose_line, scene_lines, tools};
 use dragonfly_picture::gizmo::GizmoSpace;
 use dragonfly_picture::gizmo::Pivot;
 use dragonfly_picture::gizmo::Tool;
@@ -15,7 +15,8 @@ commands! {
     ToolScale => When::Always, "Scale", [key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { tools::choose(w, Some(Tool::Scale)); None };
     ToolLine => When::Scene, "Draw lines", [key(NONE, Key::D)], "Draws lines of the project: drag freehand, with Shift straight; click corners and end with Enter; Ctrl erases", |w| { scene_lines::choose(w, LineUse::Note); None };
     ToolPath => When::Scene, "Draw a path", [key(SHIFT, Key::N)], "Draws a path on the ground that roles can follow: drag freehand, with Shift straight; click corners and end with Enter", |w| { scene_lines::choose(w, LineUse::Path); None };
-    PoseLine => When::BoneInTake, "Draw a pose line", [], "Lays the selected chain of bones along a stroke in the view, its line of action. While a model is open, the keys of \"Draw lines\" begin it, too", |w| { pose_line::choose(w); None };
+    MotionStroke => When::BoneInTake, "Draw a motion path", [], "Lets the selected bone, or the end of the selected chain, follow a stroke in the view at the selected keys, or over the play range; its timing stays", |w| { motion_stroke::choose(w); None };
+    PoseLine => When::BoneInTake, "Draw a pose line", [], "Lays the selected chain of bones along a stroke in the view, its line of action; with Alt the stroke is the path of its end over time. While a model is open, the keys of \"Draw lines\" begin it, too", |w| { pose_line::choose(w); None };
     LinesOnGround => When::Scene, "Draw on the ground", [], "Draws lines on the ground", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::Ground); None };
     LinesInView => When::Scene, "Draw in the view", [], "Draws lines in a plane that faces you, at the depth of what is under the pointer at the start, or of the point that the camera looks at", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::View); None };
     LinesOnSurface => When::Scene, "Draw on surfaces", [], "Draws lines on what is under the pointer, in its pose at the playhead; beside it they go on at the same depth", |w| { w.tools.controls_mut().line_mut().set_surface(LineSurface::Surface); None };

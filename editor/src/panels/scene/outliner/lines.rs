@@ -11,6 +11,7 @@ use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::stage::line::DrawnLine;
+use dragonfly_document::bones::Choice;
 use egui::accesskit::Role;
 use egui::{Color32, Rect, RichText, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
@@ -81,7 +82,7 @@ impl LineRows {
         requests: &mut Vec<Request>,
     ) {
         let (theme, editing) = (Theme::of(ui), context.scene_editing.lines());
-        let (is_selected, is_hidden) = (editing.selected() == Some(name), editing.is_hidden(name));
+        let (is_selected, is_hidden) = (editing.is_selected(name), editing.is_hidden(name));
         let (rect, response) = widgets::row(ui, &format!("{name}, line"), is_selected, false);
         let mark = Rect::from_center_size(pos2(rect.left() + 22.0, rect.center().y), vec2(16.0, 16.0));
         let [red, green, blue] = line.color;
@@ -113,13 +114,37 @@ impl LineRows {
         if response.double_clicked() {
             self.typed = Some((name.into(), NameField::of(name)));
         }
-        if response.clicked() || response.secondary_clicked() {
+        if response.clicked() {
+            self.choose(ui, context, name, requests);
+        } else if response.secondary_clicked() && !is_selected {
             send(requests, LineRequest::Select(Some(name.into())));
         }
         response.on_hover_ui(|ui| {
             let length = line.samples().length();
             ui.label(format!("line {name}, {length:.2} m\nDouble-click: rename"));
         });
+    }
+
+    /// Selects by a click: with Ctrl it toggles, with Shift it adds all rows from the active one up to this one.
+    fn choose(&mut self, ui: &Ui, context: &PanelContext<'_>, name: &str, requests: &mut Vec<Request>) {
+        let modifiers = ui.input(|input| input.modifiers);
+        let Some(lines) = context.scene().and_then(|scene| scene.lines.as_ref()) else { return };
+        let active = context.scene_editing.lines().selected().and_then(|name| line_named(lines, name));
+        let range = active.zip(line_named(lines, name)).filter(|_| modifiers.shift);
+        let (names, choice) = match range {
+            Some((from, to)) => {
+                let between = lines.list().iter().enumerate().take(from.max(to) + 1).skip(from.min(to));
+                let names = between.map(|(index, line)| line_name(index, line));
+                // The one that was clicked becomes the active one.
+                let mut names: Vec<Box<str>> = names.filter(|other| **other != *name).collect();
+                names.push(name.into());
+                (names, Choice::Add)
+            }
+            None if modifiers.command => (vec![name.into()], Choice::Toggle),
+            None if modifiers.shift => (vec![name.into()], Choice::Add),
+            None => (vec![name.into()], Choice::Replace),
+        };
+        send(requests, LineRequest::Choose(names, choice));
     }
 
     fn menu(&mut self, ui: &mut Ui, name: &str, requests: &mut Vec<Request>) {

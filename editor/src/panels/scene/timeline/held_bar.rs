@@ -7,7 +7,7 @@ use crate::panels::drag::{PointerInput, readout};
 use crate::panels::request::Request;
 use crate::panels::scene::{ChangedThings, SceneBase, SceneEditing, SceneRequest, ScriptChange, move_label};
 use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureRefusal, MovedPart, SequenceOrder, in_this_text, move_clips,
+    FadeEnd, Followers, GestureRefusal, MovedPart, MovedToLane, SequenceOrder, in_this_text, move_clips,
     move_clips_to_lane, moved_along, set_fade, stretch_to, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane, SceneLanes};
@@ -42,7 +42,7 @@ pub(super) struct HeldBar {
     pub(super) is_sent: bool,
     /// The place to which the edge was brought last.
     asked: Option<AskedEdge>,
-    /// Why it could not be brought there.
+    /// Why it could not be brought there, or not with all actions that move along.
     refused: Option<GestureRefusal>,
 }
 
@@ -203,7 +203,10 @@ impl HeldBar {
             Some(reason) => Err(GestureRefusal(reason)),
             None => result,
         };
-        let (text, refused) = result.map_or_else(|refusal| (None, Some(refusal)), |text| (Some(text), None));
+        let (text, refused) = match result {
+            Ok(MovedToLane { text, left }) => (Some(text), left),
+            Err(refusal) => (None, Some(refusal)),
+        };
         self.refused = refused;
         let (from, also, gesture) = (Arc::clone(self.base.text()), Vec::new(), Some(self.gesture));
         let change = ScriptChange { from, text: text?, also, label, gesture, things };
@@ -211,19 +214,19 @@ impl HeldBar {
         Some(Request::Scene(SceneRequest::Text(change)))
     }
 
-    /// Returns the label and the text of the gesture that brings the dragged part to an edge.
-    fn gesture_to(&self, asked: &AskedEdge) -> (ScriptLabel, Result<String, GestureRefusal>) {
+    /// Returns the label of the gesture that brings the dragged part to an edge, its text, and why some actions stay.
+    fn gesture_to(&self, asked: &AskedEdge) -> (ScriptLabel, Result<MovedToLane, GestureRefusal>) {
         let (scene, action) = (self.base.scene(), self.bar.action);
         let AskedEdge { time: edge, alt, followers, onto } = asked;
         let (edge, followers, by) = (*edge, *followers, *edge - self.bar.begin);
-        match self.part {
+        let (label, text) = match self.part {
             SceneBarPart::Body => {
                 let order = if *alt { SequenceOrder::Keep } else { SequenceOrder::Change };
-                let moved = match onto {
-                    Some(onto) => move_clips_to_lane(&scene, &self.actions, by, onto, followers),
-                    None => move_clips(&scene, &self.actions, by, order, followers),
-                };
-                (move_label(&self.actions), moved)
+                let label = move_label(&self.actions);
+                if let Some(onto) = onto {
+                    return (label, move_clips_to_lane(&scene, &self.actions, by, onto, followers));
+                }
+                (label, move_clips(&scene, &self.actions, by, order, followers))
             }
             SceneBarPart::Start => (ScriptLabel::TrimStart, trim_start(&scene, action, edge)),
             SceneBarPart::End if *alt => (ScriptLabel::ChangeSpeed, stretch_to(&scene, action, edge)),
@@ -234,7 +237,8 @@ impl HeldBar {
             SceneBarPart::FadeOut => {
                 (ScriptLabel::ChangeFade, set_fade(&scene, action, FadeEnd::Out, self.bar.end - edge))
             }
-        }
+        };
+        (label, text.map(|text| MovedToLane { text, left: None }))
     }
 
     /// Returns the numbers of the drag.

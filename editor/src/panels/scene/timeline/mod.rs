@@ -173,6 +173,9 @@ impl SceneTimeline {
         take_drop::update(ui, &painter, &sheet, requests);
         self.menu.show(&response, &self.drag, &sheet, requests);
         ruler::show(&mut self.scrub, ui, &painter, &sheet, &mut moved);
+        if context.keys.range().is_some() {
+            dope::shade(&painter, canvas, &scale, context, sheet.theme);
+        }
         paint::playhead(&painter, &sheet);
         gutter::show(ui, &sheet, requests);
         gutter::tools(ui, Rect::from_min_max(rect.min, pos2(left, head.bottom())), context, requests);

@@ -39,9 +39,14 @@ pub(super) fn show(
         requests.push(Request::Command(Id::FitScene));
     }
     response.context_menu(|ui| {
+        for id in [Id::LoopFromHere, Id::LoopToHere, Id::LoopActions, Id::LoopWhole] {
+            item(ui, context, id, false, requests);
+        }
+        ui.separator();
         item(ui, context, Id::FitScene, false, requests);
         item(ui, context, Id::ToggleSnap, context.keys.snap(), requests);
         item(ui, context, Id::ToggleRulerSeconds, context.keys.ruler_in_seconds(), requests);
     });
+    dope::range_ends(ui, head, scale, context, requests);
     dope::wheel(ui, &response, scale, requests);
 }
