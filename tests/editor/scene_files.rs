@@ -5,7 +5,7 @@ use crate::scene_sounds::{forwarding, move_to, thunder};
 use crate::workbench::{Window, Workbench};
 use dragonfly::app::scene_files::{self, SceneFilesAnswer};
 use dragonfly::panels::dialogs::Question;
-use dragonfly::panels::dropped_files::{DropPlace, DroppedModels, WantedFiles};
+use dragonfly::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, ModelForm, WantedFiles};
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, FileChoice, Request};
 use dragonfly_anim::stage::script::{IncludedScripts, ScriptContext, StageScript};
@@ -253,7 +253,8 @@ fn files_for_a_script_are_not_added_to_another_one_of_the_same_folder() {
     assert_eq!(window.state_mut().state.files_answered(wanted, copied), None);
     assert!(said(&window, "not open any more"));
     // Models that were read in between are not added either.
-    let models = vec![("knight.glb".to_owned(), true)];
+    let form = ModelForm::Figure;
+    let models = vec![DroppedModel { name: "knight.glb".to_owned(), form, scale: 1.0 }];
     let place = DropPlace::Nowhere;
     let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
     assert_eq!(execute(&mut window, Request::DroppedModels(Box::new(dropped))), None);

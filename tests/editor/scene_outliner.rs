@@ -1,6 +1,6 @@
 //! The list of things: selected, renamed, hidden, added, deleted.
 
-use crate::scene_bench::{FOXES, new_lines, project, scene, text};
+use crate::scene_bench::{FOXES, looked, new_lines, project, scene, text};
 use crate::workbench::{Window, type_into};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::file_choice::FileChoice;
@@ -153,7 +153,9 @@ fn a_sound_is_added_by_a_command_and_the_sound_track_of_a_model_is_not_offered()
     let effect = window.state_mut().state.execute(Request::Command(Id::AddSceneSound));
     assert!(matches!(effect, Some(Effect::Choose(FileChoice::SceneSound, _))), "{effect:?}");
     let effect = window.state_mut().state.execute(Request::AddSound("/scenes/steps.wav".into()));
-    assert_eq!(effect, None);
+    let effect = looked(&mut window, effect);
+    let Some(Effect::Change(change)) = effect else { panic!("{effect:?}") };
+    window.state_mut().change(change);
     assert_eq!(new_lines(FOXES, &text(&window)), [r#"<sound src="steps.wav"/>"#]);
     let effect = window.state_mut().state.execute(Request::Command(Id::ChooseSound));
     assert_eq!(effect, None, "a scene has its own sounds");
