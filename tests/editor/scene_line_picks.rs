@@ -38,7 +38,8 @@ fn selected(window: &Window) -> Vec<String> {
     let listed: Vec<String> =
         read.scene_editing.lines().selected_list().iter().map(|line| line.to_string()).collect();
     for line in ["near", "far", "late"] {
-        let row = window.get_by_label(&format!("{line}, line"));
+        let name = format!("{line}, line");
+        let row = window.get_by_label(&name);
         let is_marked = row.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True);
         assert_eq!(
             is_marked,
