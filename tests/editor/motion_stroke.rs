@@ -69,7 +69,7 @@ fn alt_and_a_stroke_let_the_end_of_the_chain_follow_it_over_the_take_in_one_step
         assert!(found.distance(wanted) < 0.04, "at {share}: {found} instead of {wanted}");
     }
     let counts = key_counts(&window);
-    let frames = (end * window.state().state.read().frames_per_second()) as usize + 1;
+    let frames = (f64::from(end) * window.state().state.read().frames_per_second()) as usize + 1;
     assert!(counts[0] > 2 && counts[0] < frames, "{counts:?} keys, and {frames} frames");
     window.state_mut().change(Change::Undo);
     window.run_steps(2);

@@ -9,7 +9,7 @@ use dragonfly::panels::scene::{LineRequest, SceneRequest};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
 use egui::{Key, Pos2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use glam::DVec3;
 
 /// Three notes on the ground, one of them behind the others and one shown later.
@@ -38,8 +38,9 @@ fn selected(window: &Window) -> Vec<String> {
     let listed: Vec<String> =
         read.scene_editing.lines().selected_list().iter().map(|line| line.to_string()).collect();
     for line in ["near", "far", "late"] {
-        let row = window.get_by_label(&format!("{line}, line"));
-        let is_marked = row.accesskit_node().is_selected() == Some(true);
+        let name = format!("{line}, line");
+        let row = window.get_by_label(&name);
+        let is_marked = row.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True);
         assert_eq!(
             is_marked,
             listed.iter().any(|own| own == line),
