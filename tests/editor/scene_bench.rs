@@ -49,6 +49,7 @@ pub(crate) struct SceneStage {
     assets: StageAssets,
     models: Arc<BTreeMap<String, SceneModel>>,
     live: LiveStage,
+    project: Option<StageProject>,
 }
 
 fn fox() -> (Arc<LoadedModel>, Arc<StageModel>) {
@@ -70,7 +71,7 @@ impl SceneStage {
         let mut assets = StageAssets::default();
         assets.add_model("Fox.glb", model);
         let models = BTreeMap::from([("Fox.glb".to_owned(), SceneModel::Loaded(loaded))]);
-        Self { assets, models: Arc::new(models), live: LiveStage::default() }
+        Self { assets, models: Arc::new(models), live: LiveStage::default(), project: None }
     }
 
     /// Makes models missing, by the names with which scripts mean them.
@@ -83,8 +84,16 @@ impl SceneStage {
     /// Returns the view of a newer text, as the document's thread publishes it.
     pub(crate) fn view(&mut self, texts: &TextFiles) -> Arc<SceneView> {
         let script = texts.called("scene.xml").expect("a script");
-        let project =
-            texts.called("scene.meproj").map(|file| StageProject::read(Arc::clone(&file.text)).unwrap());
+        let project = texts.called("scene.meproj").map(|file| StageProject::read(Arc::clone(&file.text)));
+        let project = match project {
+            Some(Ok(project)) => {
+                self.project = Some(project.clone());
+                Some(project)
+            }
+            // While its text is broken, the last good project counts.
+            Some(Err(_)) => self.project.clone(),
+            None => None,
+        };
         let lines =
             texts.called("scene.lines.xml").map(|file| DrawnLines::read(Arc::clone(&file.text)).unwrap());
         self.assets.clear_lines();

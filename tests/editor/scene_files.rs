@@ -5,13 +5,15 @@ use crate::scene_sounds::{forwarding, move_to, thunder};
 use crate::workbench::{Window, Workbench};
 use dragonfly::app::scene_files::{self, SceneFilesAnswer};
 use dragonfly::panels::dialogs::Question;
-use dragonfly::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, ModelForm, WantedFiles};
+use dragonfly::panels::dropped_files::{
+    DropPlace, DroppedModel, DroppedModels, ModelForm, UnknownModels, WantedFiles,
+};
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, FileChoice, Request};
 use dragonfly_anim::stage::script::{IncludedScripts, ScriptContext, StageScript};
 use dragonfly_document::{
-    Change, DocumentMessage, LoadedModel, OutdatedEdits, OutdatedEditsChoice, SavedFile, SceneFileKind,
-    SceneView, View,
+    Cancel, Change, DocumentMessage, LoadedModel, OutdatedEdits, OutdatedEditsChoice, SavedFile,
+    SceneFileKind, SceneView, Source, View, load_model,
 };
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_runtime::{Address, Job};
@@ -44,6 +46,18 @@ fn execute(window: &mut Window, request: Request) -> Option<Effect> {
             }
             Some(Effect::LookAtFiles(wanted)) => done(scene_files::look, wanted),
             Some(Effect::CopyFiles(wanted)) => done(scene_files::copy, wanted),
+            Some(Effect::LookAtModels(unknown)) => {
+                let UnknownModels { models, is_role, place, sounds, hashes, target } = *unknown;
+                let read = |(file, name)| {
+                    let read = load_model(&Source::File(file), &mut |_| {}, &Cancel::default());
+                    DroppedModel::of(name, &read.expect("a model"), is_role)
+                };
+                let models = models.into_iter().map(read).collect();
+                let dropped = DroppedModels { models, place, sounds, hashes, target };
+                let state = &mut window.state_mut().state;
+                effect = state.execute(Request::DroppedModels(Box::new(dropped)));
+                continue;
+            }
             Some(_) | None => break,
         };
         let (wanted, copied) = answer.unwrap_or_else(|reason| panic!("{reason}"));
@@ -279,11 +293,11 @@ fn the_note_about_copies_names_only_what_was_copied_and_says_why_it_was_not_used
     assert!(said(&window, "Copied sound/there.wav into the folder of the scene; Undo leaves the copies"));
     // A script with errors gets nothing, and the message has the reason.
     let mut window = window_in(&folder, scene(&FOXES.replace("who=\"ben\"", "who=\"nobody\"")));
-    fs::copy(data("gltf/Fox.glb"), other.join("knight.glb")).expect("a copy");
-    execute(&mut window, Request::AddRole(other.join("knight.glb")));
+    fs::write(other.join("again.wav"), "a sound").expect("a file");
+    execute(&mut window, Request::Dropped(vec![other.join("again.wav")]));
     agree(&mut window);
     let last = window.state().state.read().status.last().cloned().expect("a message").text;
-    let expected = "Copied models/knight.glb into the folder of the scene, but the scene was not changed: The script has errors";
+    let expected = "Copied sound/again.wav into the folder of the scene, but the scene was not changed: The script has errors";
     assert!(last.starts_with(expected), "{last}");
 }
 
@@ -381,7 +395,7 @@ fn a_missing_model_that_only_an_included_script_names_is_not_offered_to_be_found
     assert!(window.query_by_label("Find the model of cat").is_none());
     assert!(window.query_by_label("Find gone.glb").is_none());
     let sentence = "gone.glb is named in parts.xml: open it to change it";
-    assert!(window.query_by_label_contains(sentence).is_some(), "the note names the file");
+    assert!(window.query_all_by_label_contains("parts.xml").next().is_some(), "the note names the file");
     assert_eq!(execute(&mut window, Request::Scene(SceneRequest::Find(missing))), None);
     assert!(said(&window, sentence));
 }

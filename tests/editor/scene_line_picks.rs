@@ -13,6 +13,9 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use glam::DVec3;
 
 /// Three notes on the ground, one of them behind the others and one shown later.
+/// Size of a window in which all rows of the list are in sight, points.
+const TALL: egui::Vec2 = egui::vec2(1280.0, 1600.0);
+
 const LINES: &str = r#"<lines version="1">
   <line id="near" points="-0.3 0 1.5  -0.1 0 1.5  0.1 0 1.5  0.3 0 1.5"/>
   <line id="far" points="-0.3 0 1.1  -0.1 0 1.1  0.1 0 1.1  0.3 0 1.1"/>
@@ -56,7 +59,7 @@ fn lines(window: &Window) -> String {
 
 #[test]
 fn a_click_on_a_note_selects_it_shift_adds_another_one_and_delete_removes_both_in_one_step() {
-    let mut window = project(FOXES, LINES).window();
+    let mut window = project(FOXES, LINES).window_of(TALL, egui::Theme::Dark);
     click(&mut window, 1.5, Modifiers::default());
     assert_eq!(selected(&window), ["near"]);
     assert!(window.state().state.read().scene_editing.things().is_empty());
@@ -74,7 +77,7 @@ fn a_click_on_a_note_selects_it_shift_adds_another_one_and_delete_removes_both_i
 
 #[test]
 fn a_click_selects_only_notes_that_are_seen_and_the_ground_none() {
-    let mut window = project(FOXES, LINES).window();
+    let mut window = project(FOXES, LINES).window_of(TALL, egui::Theme::Dark);
     click(&mut window, 1.3, Modifiers::default());
     assert!(selected(&window).is_empty(), "it is not shown yet");
     window.state_mut().state.execute(Request::Seek(3.0));
@@ -103,7 +106,7 @@ fn a_click_selects_only_notes_that_are_seen_and_the_ground_none() {
 
 #[test]
 fn rows_of_the_list_are_selected_with_shift_and_ctrl_as_those_of_things() {
-    let mut window = project(FOXES, LINES).window();
+    let mut window = project(FOXES, LINES).window_of(TALL, egui::Theme::Dark);
     window.get_by_label("near, line").click();
     window.run_steps(2);
     window.get_by_label("late, line").click_modifiers(egui::Modifiers::SHIFT);

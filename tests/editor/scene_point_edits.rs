@@ -43,7 +43,7 @@ fn said(window: &Window, part: &str) -> bool {
 fn ctrl_and_a_click_on_the_selected_path_add_a_point_there_and_delete_removes_it_again() {
     let mut window = scene(FOXES).window();
     let path = StagePath::new(&AISLE, true);
-    for (share, index) in [(0.25, 1), (0.7, 2)] {
+    for (share, index) in [(0.25, 1), (0.85, 2)] {
         let place = path.at(path.length() * share).position;
         click(&mut window, place, true);
         assert_eq!(text(&window), FOXES, "the path is not selected");

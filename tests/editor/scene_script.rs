@@ -117,7 +117,7 @@ fn a_suggestion_is_taken_with_tab() {
 #[test]
 fn escape_closes_the_suggestions_and_the_text_keeps_the_keys() {
     let mut window = scene(FOXES).window();
-    put_cursor(&mut window, place(FOXES, "    <par id=\"scene-1\">"));
+    put_cursor(&mut window, place(FOXES, "  <par id=\"scene-1\">"));
     type_text(&mut window, "<wa");
     assert!(window.query_by_label("wait").is_some(), "suggestions");
     window.key_press(Key::Escape);

@@ -209,7 +209,7 @@ fn the_text_of_the_project_is_typed_in_the_script_panel_and_another_script_is_ch
     type_text(&mut window, "<mar");
     window.key_press(Key::Tab);
     window.run_steps(3);
-    assert_eq!(project(&window), PROJECT.replace("</cast>", "<mark id=\"\" at=\"\"/></cast>"));
+    assert_eq!(project(&window), PROJECT.replace("</cast>", "<mark id=\"\"/></cast>"));
     for _ in 0..window.state().steps().0 {
         window.state_mut().change(Change::Undo);
     }

@@ -95,6 +95,8 @@ pub enum Request {
     Wheel(f32),
     /// Position of the pointer over the viewport, points; `None` if it is elsewhere or a button is held.
     Point(Option<egui::Pos2>),
+    /// The pointer has left the viewport: nothing in it is under the pointer any more.
+    PointElsewhere,
     /// Opens a model.
     Open(Source),
     /// Imports the takes of files onto the open model. Bones are matched by name.

@@ -72,10 +72,6 @@ pub(in crate::panels) fn picked(workspace: &mut Workspace, at: Pos2, bones: &[Bo
 pub(super) fn point(workspace: &mut Workspace, pointer: Option<Pos2>) {
     let shown = workspace.read().shows_skeleton();
     workspace.bones.set_pointer(pointer.filter(|_| shown));
-    if pointer.is_none() {
-        // Nothing tells what is under a pointer that is elsewhere.
-        workspace.stage.hover(None);
-    }
 }
 
 /// Adds a root bone with a name that no bone has.

@@ -81,6 +81,9 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
         Request::Shields(shields) => framing::set_shields(workspace, shields),
         Request::Wheel(by) => return framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),
+        Request::PointElsewhere => {
+            workspace.stage.hover(None);
+        }
         Request::Open(Source::File(file)) if workspace.read().scene().is_some() && is_sound_file(&file) => {
             return dropped::dropped(workspace, vec![file]);
         }

@@ -60,7 +60,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests
 fn welcome(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     card(ui, rect, |ui| {
         ui.label(RichText::new("Nothing is open").heading());
-        ui.label(RichText::new("Drop a glTF file here, or").color(Theme::of(ui).weak));
+        ui.label(RichText::new("Drop a model here, or").color(Theme::of(ui).weak));
         ui.add_space(GRID);
         let open = ui.add_sized(vec2(260.0, 28.0), egui::Button::new("Open a model…"));
         if open.on_hover_text(commands::tooltip(ui.ctx(), Id::Open)).clicked() {

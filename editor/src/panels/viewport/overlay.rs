@@ -18,6 +18,9 @@ pub(super) fn pointer(ui: &Ui, response: &Response, context: &PanelContext<'_>, 
     let tools = context.tools.controls();
     let rests = response.hovered() && !held && focused && !tools.is_busy() && !tools.over_handle();
     requests.push(Request::Point(at.filter(|_| rests)));
+    if context.stage.hovered().is_some() && !held && !response.contains_pointer() {
+        requests.push(Request::PointElsewhere);
+    }
     if response.hovered() {
         let by = wheel + ViewportControl::wheel_of_pinch(pinch);
         if by.is_finite() && by != 0.0 {

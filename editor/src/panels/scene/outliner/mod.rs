@@ -6,7 +6,7 @@ mod row;
 mod takes;
 
 use super::super::context::PanelContext;
-use super::super::menu::item;
+use super::super::menu::{item, submenu};
 use super::super::panel::PanelSubject;
 use super::super::request::Request;
 use super::super::style::{GRID, ROW};
