@@ -12,7 +12,7 @@ use egui::{Key, Pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::DVec3;
 
-/// Three notes on the ground, one of them behind the others and one shown later.
+/// Three notes on the ground, one of them farther away and one shown later.
 /// Size of a window in which all rows of the list are in sight, points.
 const TALL: egui::Vec2 = egui::vec2(1280.0, 1600.0);
 

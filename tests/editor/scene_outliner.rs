@@ -6,6 +6,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::file_choice::FileChoice;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
+use dragonfly_document::bones::Choice;
 use dragonfly_picture::ThroughCamera;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -159,4 +160,41 @@ fn a_sound_is_added_by_a_command_and_the_sound_track_of_a_model_is_not_offered()
     assert_eq!(new_lines(FOXES, &text(&window)), [r#"<sound src="steps.wav"/>"#]);
     let effect = window.state_mut().state.execute(Request::Command(Id::ChooseSound));
     assert_eq!(effect, None, "a scene has its own sounds");
+}
+
+#[test]
+fn the_names_that_an_attribute_may_have_are_offered_in_a_list() {
+    let mut window = window();
+    let action = FOXES.find("take=\"Run\"").expect("a run");
+    let script =
+        window.state().state.read().scene().and_then(|scene| scene.script.clone()).expect("a script");
+    let of = |element: &dragonfly_anim::stage::script::ScriptElement| element.range.contains(&action);
+    let run = (0..script.actions().len()).rfind(|&at| of(script.element(at))).expect("an action");
+    window.state_mut().state.execute(Request::Scene(SceneRequest::SelectAction(Some(run))));
+    window.run_steps(3);
+    let [first, other] = ["take", "repeat"].map(|name| window.get_by_label(name).rect().top());
+    let unwritten = window.get_by_label("fade-out").rect().top();
+    assert!(first < unwritten && other < unwritten, "what is written comes first");
+    window.get_by_label("Choose take").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Survey").is_some(), "its takes are listed");
+    window.get_all_by_label("Walk").last().expect("a take").click();
+    window.run_steps(3);
+    let new = new_lines(FOXES, &text(&window));
+    assert_eq!(new, [r#"<play who="anna" take="Walk" begin="-0.5" fade-in="0.5" repeat="3"/>"#]);
+}
+
+#[test]
+fn what_is_selected_elsewhere_is_brought_into_sight_in_the_list() {
+    let mut cast = String::new();
+    for number in 0..60 {
+        cast += &format!("    <mark id=\"m{number}\" at=\"0 0 {number}\"/>\n");
+    }
+    let script = FOXES.replace("  </cast>", &format!("{cast}  </cast>"));
+    let mut window = scene(&script).window();
+    assert!(window.query_by_label("m55, mark").is_none(), "it is below");
+    let things = SceneRequest::SelectThings(vec!["m55".into()], Choice::Replace);
+    window.state_mut().state.execute(Request::Scene(things));
+    window.run_steps(6);
+    assert!(window.query_by_label("m55, mark").is_some());
 }

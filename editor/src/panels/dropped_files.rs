@@ -50,7 +50,7 @@ pub struct DroppedModel {
 }
 
 impl DroppedModel {
-    /// Creates one of a model that was read. A figure that is far from human size is made as high as a human. `is_role` is what the user wants.
+    /// Creates one of a model that was read. A figure that is far from human size is made as high as a human. `is_role` is the choice of the user, if there is one.
     pub fn of(name: String, loaded: &LoadedModel, is_role: Option<bool>) -> Self {
         let scale = if loaded.is_figure() { loaded.human_scale() } else { 1.0 };
         let form = match (is_role, ModelForm::of(loaded)) {
@@ -91,7 +91,7 @@ pub struct SceneTarget {
 pub struct UnknownModels {
     /// The models: their files, and how the script names them.
     pub models: Vec<(PathBuf, String)>,
-    /// Whether they become roles or props, where the user said so.
+    /// Whether they become roles; `None` where the user made no choice.
     pub is_role: Option<bool>,
     /// The place at which they were dropped.
     pub place: DropPlace,

@@ -209,6 +209,19 @@ fn a_path_of_few_points_follows_a_line_within_the_tolerance() {
         }
     }
     assert!(checked > 40, "only {checked} of 60 need fewer than 64 points");
+    // One bend between two straight ways costs points at the bend alone.
+    let bend: Vec<DVec3> = (0..=100)
+        .map(|at| match at {
+            0..=45 => DVec3::X * f64::from(at) * 0.1,
+            55.. => DVec3::new(5.0, 0.0, f64::from(at - 50) * 0.1),
+            _ => {
+                let turn = f64::from(at - 45) * std::f64::consts::FRAC_PI_2 / 10.0;
+                DVec3::new(4.5 + 0.5 * turn.sin(), 0.0, 0.5 - 0.5 * turn.cos())
+            }
+        })
+        .collect();
+    let points = path_points(&fit(&bend, 0.01), 0.02);
+    assert!(points.len() <= 14, "{} points: {points:?}", points.len());
     let straight = fit(&[DVec3::ZERO, DVec3::X], 0.01);
     assert_eq!(path_points(&straight, 0.001), [DVec3::ZERO, DVec3::X]);
     assert!(path_points(&[], 0.1).is_empty() && path_points(&[DVec3::X; 4], 0.1).is_empty());

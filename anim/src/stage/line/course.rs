@@ -4,14 +4,15 @@ use super::samples::LineSamples;
 use crate::stage::path::StagePath;
 use glam::DVec3;
 
-/// Numbers of points that are tried.
-const COUNTS: [usize; 12] = [2, 3, 4, 5, 6, 8, 12, 16, 24, 32, 48, 64];
+/// Most points of a path.
+const MOST: usize = 64;
 
 /// Number of places at which a path is compared with its line.
 const COMPARED: usize = 128;
 
-/// Returns points, meters, at equal distances along a chain of cubic Bézier curves with these control points: so few that the smooth path
-/// through them ([`StagePath`]) stays within `tolerance` meters of the line after the same share of the length, but 64 at most.
+/// Returns points, meters, of a chain of cubic Bézier curves with these control points: so few that the smooth path through them ([`StagePath`])
+/// stays within `tolerance` meters of the line, but 64 at most. They are dense where the line bends: each one is added where the path so far is
+/// farthest from the line.
 ///
 /// Empty for a line without points or length.
 pub fn path_points(control: &[DVec3], tolerance: f64) -> Vec<DVec3> {
@@ -19,21 +20,38 @@ pub fn path_points(control: &[DVec3], tolerance: f64) -> Vec<DVec3> {
     if samples.length() <= 0.0 {
         return Vec::new();
     }
-    let mut points = Vec::new();
-    for count in COUNTS {
-        points.clear();
-        points.extend((0..count).filter_map(|at| along(&samples, at, count - 1)));
+    let line: Vec<DVec3> = (0..=COMPARED).filter_map(|at| along(&samples, at, COMPARED)).collect();
+    let mut chosen = vec![0, line.len() - 1];
+    let mut points: Vec<DVec3> = chosen.iter().map(|&at| line[at]).collect();
+    while points.len() < MOST.min(line.len()) {
         let path = StagePath::new(&points, true);
-        let is_near = (0..=COMPARED).all(|at| {
-            let on_path = path.at(path.length() * at as f64 / COMPARED as f64).position;
-            along(&samples, at, COMPARED).is_none_or(|place| place.distance(on_path) <= tolerance)
-        });
-        if is_near {
+        let course: Vec<DVec3> = (0..=COMPARED * 2)
+            .map(|at| path.at(path.length() * at as f64 / (COMPARED * 2) as f64).position)
+            .collect();
+        // The place of the line that is farthest from the path, in order along both.
+        let mut near = 0;
+        let mut farthest = (0.0, 0);
+        for (at, place) in line.iter().enumerate() {
+            let ahead = course[near..].iter().map(|on| on.distance(*place)).enumerate();
+            let (step, distance) =
+                ahead.take(WINDOW).min_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, f64::MAX));
+            near += step;
+            if distance > farthest.0 && !chosen.contains(&at) {
+                farthest = (distance, at);
+            }
+        }
+        if farthest.0 <= tolerance {
             break;
         }
+        let place = chosen.partition_point(|&at| at < farthest.1);
+        chosen.insert(place, farthest.1);
+        points.insert(place, line[farthest.1]);
     }
     points
 }
+
+/// Number of places ahead on a path among which the nearest one is looked for, so that a line that crosses itself is followed in order.
+const WINDOW: usize = 24;
 
 fn along(samples: &LineSamples, at: usize, of: usize) -> Option<DVec3> {
     samples.at(samples.length() * at as f64 / of as f64)

@@ -20,7 +20,7 @@ use glam::DVec3;
 use std::sync::Arc;
 
 /// Adds files of the folder of the scene to it: models, and sounds, which begin at the playhead. Models that the scene does not know yet are
-/// looked at first. Models with takes or a skin become roles, others props, unless the user said what they are to be.
+/// looked at first. Models with takes or a skin become roles, others props, unless the user made a choice.
 pub(super) fn add(workspace: &mut Workspace, unknown: UnknownModels) -> Option<Effect> {
     let known: Option<Vec<DroppedModel>> =
         unknown.models.iter().map(|(_, name)| known(workspace, name, unknown.is_role)).collect();

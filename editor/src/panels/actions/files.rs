@@ -112,7 +112,13 @@ pub(in crate::panels) fn saved(workspace: &mut Workspace, saved: &SavedFile) {
             )
         }
     };
-    let text = format!("{what} {name}{others}{warnings}");
+    let errors = workspace.read().scene().map_or(0, |scene| scene.errors.len() + scene.project_errors.len());
+    let errors = match errors {
+        0 => String::new(),
+        1 => ", with 1 error in its texts".to_owned(),
+        errors => format!(", with {errors} errors in its texts"),
+    };
+    let text = format!("{what} {name}{others}{errors}{warnings}");
     match workspace.read().pending_poses().1 {
         0 => workspace.say(level, text),
         1 => workspace.say(

@@ -181,7 +181,7 @@ fn frames_between([from, to]: [f32; 2], rate: u32) -> Vec<f32> {
     sorted([from, to].into_iter().chain(frames.filter(|time| (from..=to).contains(time))).collect())
 }
 
-/// How far along its path a bone is at each time.
+/// Distance of a bone along its path at each time.
 struct PathTiming {
     times: Vec<f32>,
     /// Shares of the path from 0 to 1, ascending.
@@ -217,7 +217,7 @@ impl PathTiming {
     }
 }
 
-/// Returns the point that is seen where `seen` is, as far from the camera as `place`; `None` behind the camera.
+/// Returns the point that is seen where `seen` is, as far from the camera as `place`; `None` at the back of the camera.
 fn at_depth(camera: &Camera, seen: DVec3, place: DVec3) -> Option<DVec3> {
     let (eye, back) = (camera.eye().as_dvec3(), camera.back().as_dvec3());
     let found = match camera.projection {

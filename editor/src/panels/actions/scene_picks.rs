@@ -7,7 +7,7 @@ use dragonfly_document::bones::Choice;
 use egui::Pos2;
 use glam::Vec2;
 
-/// Selects the line under a click: replaces, adds or toggles it. Returns whether there is one. Lines are thin: they come before the things behind them.
+/// Selects the line under a click: replaces, adds or toggles it. Returns whether there is one. Lines are thin, so they are preferred to things that are farther away.
 pub(super) fn pick(workspace: &mut Workspace, at: Pos2, choice: Choice) -> bool {
     let place = Vec2::new(at.x, at.y) - workspace.tools.controls().picture().corner;
     let time = workspace.read().scene_time();

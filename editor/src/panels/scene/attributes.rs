@@ -7,12 +7,15 @@ use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
 use super::renaming::renamed;
+use super::script::cursor::with_names;
+use super::script::text_choice::ShownText;
 use super::thing_icon::icon;
 use super::{ChangedThings, LineRequest, SceneBase, SceneRequest, line_named};
 use crate::panels::icons::Icon;
 use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 use dragonfly_anim::stage::table::AttributeRow;
+use dragonfly_anim::stage::writing::completions;
 use dragonfly_document::edit::ScriptLabel;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 
@@ -63,9 +66,18 @@ impl Panel for SceneAttributes {
                     .any(|id| context.scene_editing.is_locked(id))
                     || own.is_included();
                 ui.add_enabled_ui(!is_locked, |ui| {
-                    for row in own.row.rows() {
-                        let field = AttributeField { owner: FieldOwner::Element(element), row, element: own };
-                        self.field(ui, &field, context, requests);
+                    // Required and written ones come first.
+                    let is_first = |row: &AttributeRow| {
+                        row.required
+                            || own.row.one_of.contains(&row.name)
+                            || own.attribute(row.name).is_some()
+                    };
+                    for part in [true, false] {
+                        for row in own.row.rows().filter(|row| is_first(row) == part) {
+                            let owner = FieldOwner::Element(element);
+                            let field = AttributeField { owner, row, element: own };
+                            self.field(ui, &field, context, requests);
+                        }
                     }
                 });
                 ui.add_space(2.0 * GRID);
@@ -134,7 +146,12 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
         let (mark, _) = ui.allocate_exact_size(egui::vec2(16.0, 16.0), egui::Sense::hover());
         icon(element.row.name).paint(ui.painter(), mark, theme.accent);
         let name = element.value("id").or_else(|| element.value("who")).unwrap_or_default();
-        ui.label(RichText::new(format!("{} {name}", element.row.name)).color(theme.text));
+        let title = match name {
+            "" => element.row.name.to_owned(),
+            name if name == element.row.name => name.to_owned(),
+            name => format!("{} {name}", element.row.name),
+        };
+        ui.label(RichText::new(title).color(theme.text));
         ui.label(RichText::new(line_of(script, element)).small().color(theme.faint));
     });
     ui.horizontal(|ui| {
@@ -184,7 +201,12 @@ impl SceneAttributes {
                 Some((_, _, text)) if is_typed => text.clone(),
                 Some(_) | None => written.unwrap_or_default().to_owned(),
             };
-            let width = (ui.available_width() - 2.0 * GRID).max(24.0);
+            let has_names = matches!(field.owner, FieldOwner::Element(_))
+                && NAMED.contains(&row.name)
+                && field.element.is_own()
+                && field.element.attribute(row.name).is_some();
+            let beside = if has_names { NAMES } else { 0.0 };
+            let width = (ui.available_width() - 2.0 * GRID - beside).max(24.0);
             let edit = TextEdit::singleline(&mut text)
                 .hint_text(row.default)
                 .align(egui::Align2::LEFT_CENTER)
@@ -203,8 +225,44 @@ impl SceneAttributes {
             } else if response.has_focus() {
                 self.typed = Some((field.owner.clone(), row.name, text));
             }
+            if has_names {
+                named_values(ui, field, context, requests);
+            }
         });
     }
+}
+
+/// Attributes whose values are names that are offered in a list.
+const NAMED: [&str; 6] = ["who", "take", "path", "model", "line", "src"];
+/// Width of the button that opens the list, points.
+const NAMES: f32 = 26.0;
+
+/// Draws the button that offers the names that an attribute may have: those that the text of the script would suggest.
+fn named_values(
+    ui: &mut Ui,
+    field: &AttributeField<'_>,
+    context: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) {
+    let name = format!("Choose {}", field.row.name);
+    let button = widgets::quiet_button(ui, Icon::Down, true, "", &name);
+    egui::Popup::menu(&button).show(|ui| {
+        let Some(scene) = context.scene() else { return };
+        let (Some(script), Some(written)) = (&scene.script, field.element.attribute(field.row.name)) else {
+            return;
+        };
+        let at = written.value_range.start;
+        let found =
+            with_names(scene, ShownText::Script, |names| completions(script.tree().text(), at, names));
+        ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
+            for item in found.iter().flat_map(|found| &found.items) {
+                if ui.selectable_label(*item.label == *written.value, &item.label).clicked() {
+                    requests.push(Request::Scene(field.set(context, &item.label)));
+                    ui.close();
+                }
+            }
+        });
+    });
 }
 
 /// Draws the choice between the words that an attribute may have.

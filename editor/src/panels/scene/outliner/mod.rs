@@ -49,6 +49,10 @@ pub struct Outliner {
     takes: TakeRows,
     /// The thing from which Shift selects.
     from: Option<Box<str>>,
+    /// The thing that was selected last when the list was drawn before.
+    active: Option<Box<str>>,
+    /// The thing to bring into sight.
+    sought: Option<Box<str>>,
     listed: ListedThings,
 }
 
@@ -91,6 +95,11 @@ impl Panel for Outliner {
             self.query.clear();
         }
         self.listed.update(script, self.query.trim());
+        let active = context.scene_editing.things().last();
+        if self.active.as_ref() != active {
+            self.active = active.cloned();
+            self.sought = active.cloned();
+        }
         ui.spacing_mut().item_spacing.y = 0.0;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let listed = std::mem::take(&mut self.listed);
@@ -170,6 +179,16 @@ impl Outliner {
             // At once: a field that moves out of sight again would lose the focus.
             let rect = Rect::from_min_size(corner, vec2(1.0, ROW));
             ui.scroll_to_rect_animation(rect, Some(Align::Center), ScrollAnimation::none());
+        }
+        // Brings a thing into sight that was selected or added elsewhere.
+        let sought = self.sought.as_deref();
+        if let Some(row) = group.iter().position(|own| Some(id_of(script, *own)) == sought) {
+            self.sought = None;
+            let corner = pos2(ui.cursor().left(), top + row as f32 * ROW);
+            let rect = Rect::from_min_size(corner, vec2(1.0, ROW));
+            if !clip.y_range().contains(rect.top()) || !clip.y_range().contains(rect.bottom()) {
+                ui.scroll_to_rect_animation(rect, Some(Align::Center), ScrollAnimation::none());
+            }
         }
         ui.add_space(first as f32 * ROW);
         for own in &group[first.min(last)..last] {

@@ -1,9 +1,10 @@
-//! What the text of a script and the selection elsewhere have in common: what is at the cursor, the bytes of what is selected, the names of files.
+//! Shared parts of the text of a script and the selection elsewhere: what is at the cursor, the bytes of what is selected, the names of files.
 
 use super::super::SceneRequest;
 use super::text_choice::ShownText;
 use crate::panels::context::PanelContext;
-use dragonfly_anim::stage::table::ElementGroup;
+use dragonfly_anim::stage::table::{ElementGroup, PROJECTS, SCRIPTS};
+use dragonfly_anim::stage::writing::CompletionNames;
 use dragonfly_document::SceneView;
 use dragonfly_document::bones::Choice;
 use std::collections::BTreeSet;
@@ -50,14 +51,41 @@ pub(super) fn selected_range(
     }
 }
 
+/// Calls `work` with the names that a text of the scene may use.
+pub(in crate::panels::scene) fn with_names<R>(
+    scene: &SceneView,
+    shown: ShownText,
+    work: impl FnOnce(&CompletionNames<'_>) -> R,
+) -> R {
+    let is_project = shown == ShownText::Project;
+    let models: Vec<&str> = scene.models.keys().map(String::as_str).collect();
+    let lines = scene.lines.as_ref().map_or(&[][..], |lines| lines.list());
+    let lines: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
+    let played = scene.plan.iter().flat_map(|plan| plan.sounds());
+    let sounds: BTreeSet<&str> = played.map(|sound| &*sound.source).collect();
+    let sounds = Vec::from_iter(sounds);
+    let scripts = if is_project { scripts_of_project(scene) } else { script_names(scene) };
+    let scripts: Vec<&str> = scripts.iter().map(String::as_str).collect();
+    work(&CompletionNames {
+        vocabulary: if is_project { &PROJECTS } else { &SCRIPTS },
+        plan: scene.plan.as_deref(),
+        // The project's own text has its things.
+        project: scene.project.as_deref().filter(|_| !is_project),
+        models: &models,
+        lines: &lines,
+        sounds: &sounds,
+        scripts: &scripts,
+    })
+}
+
 /// Returns the scripts of the project, relative to its folder.
-pub(super) fn scripts_of_project(scene: &SceneView) -> BTreeSet<String> {
+fn scripts_of_project(scene: &SceneView) -> BTreeSet<String> {
     scene.project.iter().flat_map(|project| project.scripts()).map(str::to_owned).collect()
 }
 
 /// Returns the files that the script may include, as it would write them: the other scripts of its project, those that it includes, and
 /// those next to one that is missing.
-pub(super) fn script_names(scene: &SceneView) -> BTreeSet<String> {
+fn script_names(scene: &SceneView) -> BTreeSet<String> {
     let of_project = scene.project.iter().flat_map(|project| project.scripts());
     let included = scene.includes.texts().map(|(name, _)| name);
     let beside = scene.includes.missing().flat_map(|(_, missing)| missing.beside.iter().map(String::as_str));

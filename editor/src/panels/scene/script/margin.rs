@@ -133,7 +133,7 @@ pub(super) fn scroll_to(ui: &Ui, sheet: &MarginSheet<'_>, range: &Range<usize>) 
     }
 }
 
-/// Scrolls sideways, as little as is needed, until the caret is beside the line numbers, which cover `width` points of the text.
+/// Scrolls sideways, as little as is needed, until the caret is next to the line numbers, which cover `width` points of the text.
 pub(super) fn show_caret(ui: &Ui, caret: Rect, width: f32) {
     let clip = ui.clip_rect();
     // At the start of a line, the line is shown from its start.

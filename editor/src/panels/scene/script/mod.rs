@@ -1,12 +1,12 @@
 //! The script of a scene as a text that one writes, with colors, suggestions and errors.
 
 mod coloring;
-mod cursor;
+pub(super) mod cursor;
 mod error_list;
 mod lines;
 mod margin;
 mod popup;
-mod text_choice;
+pub(super) mod text_choice;
 mod typed_text;
 mod typing;
 
@@ -18,11 +18,10 @@ use super::super::{Panel, PanelPlace, widgets};
 use super::{SceneRequest, ScriptChange};
 use crate::panels::commands::Id as CommandId;
 use coloring::ScriptLayout;
-use cursor::{cursor_request, script_names, scripts_of_project, selected_range};
+use cursor::{cursor_request, selected_range, with_names};
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::TextSplice;
-use dragonfly_anim::stage::table::{PROJECTS, SCRIPTS};
-use dragonfly_anim::stage::writing::{CompletionNames, completions};
+use dragonfly_anim::stage::writing::completions;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::{Change, SceneView};
 use egui::text::{CCursor, CCursorRange};
@@ -34,7 +33,6 @@ use egui::{
 use error_list::{ErrorList, ListClick};
 use lines::{byte_of, characters_before, lines_of, moved_position};
 use popup::{SuggestionKey, SuggestionList};
-use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
@@ -332,28 +330,8 @@ impl ScriptPanel {
     }
 
     fn suggest(&mut self, scene: &SceneView, at: usize, asked: bool) {
-        let is_project = self.shown == ShownText::Project;
-        let models: Vec<&str> = scene.models.keys().map(String::as_str).collect();
-        let lines = scene.lines.as_ref().map_or(&[][..], |lines| lines.list());
-        let lines: Vec<&str> = lines.iter().filter_map(|line| line.id.as_deref()).collect();
-        let played = scene.plan.iter().flat_map(|plan| plan.sounds());
-        let sounds: BTreeSet<&str> = played.map(|sound| &*sound.source).collect();
-        let sounds = Vec::from_iter(sounds);
-        let scripts = if is_project { scripts_of_project(scene) } else { script_names(scene) };
-        let scripts: Vec<&str> = scripts.iter().map(String::as_str).collect();
-        let (plan, project) = (scene.plan.as_deref(), scene.project.as_deref());
-        // The project's own text has its things.
-        let project = project.filter(|_| !is_project);
-        let names = CompletionNames {
-            vocabulary: if is_project { &PROJECTS } else { &SCRIPTS },
-            plan,
-            project,
-            models: &models,
-            lines: &lines,
-            sounds: &sounds,
-            scripts: &scripts,
-        };
-        let found = completions(self.buffer.as_str(), at, &names);
+        let text = self.buffer.as_str();
+        let found = with_names(scene, self.shown, |names| completions(text, at, names));
         // Unasked, a list appears only where something of the word is typed, or a tag or value begins.
         let begins =
             self.buffer.as_str().get(..at).is_some_and(|text| text.ends_with(['<', '"', '\'', '.', '/']));

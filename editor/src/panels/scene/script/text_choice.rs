@@ -10,7 +10,7 @@ use egui::accesskit::Role;
 
 /// A text of the scene that can be shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum ShownText {
+pub(in crate::panels::scene) enum ShownText {
     /// The script.
     #[default]
     Script,

@@ -15,7 +15,7 @@ const GAP: f32 = 1.0;
 /// Width of the ends of a bar by which it is trimmed, and the least width of a bar that has them.
 const GRIP: f32 = 6.0;
 const LEAST_WITH_GRIPS: f32 = 20.0;
-/// Distance of the handle of a fade from the end of the fade, so that it is beside the end of the bar by which that is trimmed.
+/// Distance of the handle of a fade from the end of the fade, so that it is next to the end of the bar, by which the bar is trimmed.
 const FADE_INSET: f32 = 12.0;
 /// Distance from the handle of a fade, and the part of a bar's height in which it is.
 const FADE: f32 = 6.0;
