@@ -14,7 +14,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use std::sync::Arc;
 use std::time::Instant;
 
-const FIELD: &str = "Find a command or a shortcut";
+const FIELD: &str = "Find a command or a key";
 
 /// Opens the sheet of shortcuts and types a text into its search field.
 fn sheet(text: &str) -> Harness<'static, Bench> {

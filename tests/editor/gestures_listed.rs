@@ -42,7 +42,7 @@ fn the_palette_and_the_shortcut_sheet_list_the_gestures_of_keys() {
         ("what is under", "Right-click"),
     ] {
         for (key, field) in
-            [(egui::Key::F3, "Find a command or a take"), (egui::Key::F1, "Find a command or a shortcut")]
+            [(egui::Key::F3, "Find a command or a take"), (egui::Key::F1, "Find a command or a key")]
         {
             let harness = search(key, field, text);
             let found = harness.query_all_by_label_contains(gesture).count();

@@ -70,8 +70,8 @@ impl ShortcutSheet {
     /// Draws the search field and the presets.
     fn head(&mut self, ui: &mut Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
         ui.horizontal_wrapped(|ui| {
-            let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a shortcut");
-            ui.add(field.desired_width(200.0)).accessible_name("Find a command or a shortcut");
+            let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a key");
+            ui.add(field.desired_width(200.0)).accessible_name("Find a command or a key");
             ui.add_space(2.0 * GRID);
             ui.label(RichText::new("Preset").color(Theme::of(ui).weak));
             for preset in Preset::ALL {

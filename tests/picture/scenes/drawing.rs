@@ -201,6 +201,24 @@ fn the_distance_in_focus_is_marked_in_front_of_its_camera() {
 }
 
 #[test]
+fn the_camera_that_is_looked_through_is_not_drawn_but_its_focus_is() {
+    let cast =
+        r#"<camera id="eye" at="0 1 8" look="0 1 0" focus="3"/><camera id="other" at="2 1 3" look="0 1 0"/>"#;
+    let drawn = |through: ThroughCamera| {
+        let mut scene = shown(&view(&script(cast, "<wait dur=\"1\"/>")), 0.0);
+        scene.look.helpers = true;
+        scene.look.through = through;
+        scene.prepare(Instant::now());
+        scene.controls.shape().lines().iter().map(|vertex| vertex.position).collect::<Vec<_>>()
+    };
+    let (free, through) = (drawn(ThroughCamera::Free), drawn(ThroughCamera::Of("eye".into())));
+    // Four edges, four sides and a roof of two lines are missing.
+    assert_eq!(free.len() - through.len(), 10 * 2);
+    assert!(through.iter().any(|at| (at.z - 5.0).abs() < 1e-4), "the distance in focus");
+    assert!(through.iter().all(|at| at.z < 7.0), "nothing is drawn around the eye");
+}
+
+#[test]
 fn titles_are_drawn_while_they_are_shown() {
     let Some(mut studio) = studio::studio() else { return };
     let text = script(

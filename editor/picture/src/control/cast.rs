@@ -81,6 +81,13 @@ impl GraphicComponent for CastGraphic {
         };
         for (thing, planned) in cast.plan().things().iter().enumerate() {
             let role = role_of(thing, &planned.id);
+            // The shape of the camera through which the scene is seen would be all over the image.
+            if let Some(own) = eye_at(cast, thing, frame.camera.eye()) {
+                if frame.look.helpers && !cast.is_hidden(thing) {
+                    add_focus(&own, role.unwrap_or(GizmoRole::View), shape);
+                }
+                continue;
+            }
             if frame.look.helpers && !cast.is_hidden(thing) {
                 draw(cast, thing, role.unwrap_or(GizmoRole::View), shape);
             }
@@ -95,6 +102,13 @@ impl GraphicComponent for CastGraphic {
             }
         }
     }
+}
+
+/// Returns a camera of the scene if it is where the scene is seen from.
+fn eye_at(cast: &PosedScene, thing: usize, eye: Vec3) -> Option<StageCamera> {
+    let is_camera = cast.plan().things()[thing].kind == "camera";
+    let camera = is_camera.then(|| cast.plan().camera_of(thing, cast.state())).flatten();
+    camera.filter(|camera| camera.position.distance(eye) < SIZE * 0.1)
 }
 
 fn cube(middle: Vec3) -> AxisBox {
