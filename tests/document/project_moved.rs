@@ -326,9 +326,12 @@ fn a_second_copy_replaces_the_files_of_the_first_one_unless_another_program_chan
     let fin = END.replace("The End", "Fin");
     assert_eq!(fs::read_to_string(other.join("end.xml")).expect("a file"), fin);
     assert_eq!(fs::read(other.join("models/Fox.glb")).expect("a file").len(), fox.len() + 4);
-    // Another name in the same folder, after another edit.
+    // Under another name in the same folder, after another edit: the project that is there keeps its texts.
     document.edit(replaced_in("end.xml", &fin, "Fin", "Ende"));
-    document.save(SaveTo::Copy(other.join("again.meproj")));
+    let reason = not_saved(&mut document, SaveTo::Copy(other.join("again.meproj")));
+    assert!(reason.contains("end.xml") && !other.join("again.meproj").exists(), "{reason}");
+    assert_eq!(fs::read_to_string(other.join("end.xml")).expect("a file"), fin);
+    saved_over(&mut document, target());
     assert!(fs::read_to_string(other.join("end.xml")).expect("a file").contains("Ende"));
     // Another program changes one of them.
     fs::write(other.join("end.xml"), "of another program").expect("a file");

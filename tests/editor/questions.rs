@@ -7,7 +7,7 @@ use dragonfly::panels::dialogs::{
     OutdatedQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion, RewriteQuestion, UnfitQuestion,
     UnsavedQuestion,
 };
-use dragonfly::panels::dropped_files::{FileUse, SceneTarget, WantedFiles};
+use dragonfly::panels::dropped_files::{FileUse, JobScene, WantedFiles};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{
     Decision, DocumentMessage, HistoryView, MissingFile, Offer, OutdatedEdits, OutdatedEditsChoice,
@@ -133,7 +133,7 @@ pub(crate) fn wanted(names: &[&str]) -> Box<WantedFiles> {
         ..SceneFile::new(SceneFileKind::Model, PathBuf::from("/home/mara/downloads").join(name))
     };
     let files = SceneFiles { folder: "/home/mara/duel".into(), files: names.iter().map(file).collect() };
-    Box::new(WantedFiles { files, others: Vec::new(), used: FileUse::Role, target: SceneTarget::default() })
+    Box::new(WantedFiles { files, others: Vec::new(), used: FileUse::Role, target: JobScene::default() })
 }
 
 pub(crate) fn missing() -> MissingFile {

@@ -259,7 +259,7 @@ fn a_model_on_a_way_is_opened_with_the_take_for_walking_at_its_step() {
     bench.state.execute(Request::Seek(time));
     let plan = bench.state.read().scene().expect("a scene").plan.clone().expect("a plan");
     let ben = plan.thing_called("ben").expect("a role");
-    let (_, _, after) = plan.take_at(ben, StageTime::from_seconds(f64::from(time))).expect("a take");
+    let (_, after) = plan.take_at(ben, StageTime::from_seconds(f64::from(time))).expect("a take");
     assert!(after > StageTime::ZERO);
     bench.state.execute(Request::Scene(SceneRequest::EditModel("ben".into())));
     let loaded = match &bench.state.read().scene().expect("a scene").models["Fox.glb"] {

@@ -97,13 +97,6 @@ impl BesideStamps {
         self.of(path).filter(|stamp| matches!(stamp.state(&RealFiles, path), Ok(FileState::Same)))
     }
 
-    /// Replaces the stamp of a file, if it has one.
-    pub(super) fn renew(&mut self, path: &Path, stamp: FileStamp) {
-        if let Some(own) = self.0.get_mut(path) {
-            *own = stamp;
-        }
-    }
-
     /// Adds the files of `other`, and replaces their stamps.
     pub(super) fn extend(&mut self, other: Self) {
         self.0.extend(other.0);

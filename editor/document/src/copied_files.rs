@@ -1,7 +1,7 @@
 //! Files next to a document that it needs, and that a save into another folder copies there.
 
 use super::beside::BesideStamps;
-use super::editable::make_folder;
+use super::editable::{is_same_path, make_folder};
 use super::folder::{FileAccessError, open_file};
 use super::{Cancel, Folder};
 use dragonfly_anim::limits::FILE_BYTES;
@@ -18,6 +18,35 @@ const NAMED: usize = 5;
 
 /// The reason why a save that was cancelled ends.
 pub(super) const CANCELLED: &str = "the save was cancelled";
+
+/// Files that copies of the document wrote into other folders, each next to the main file that they belong to. Only a later copy under the same name
+/// replaces them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct EarlierCopies {
+    /// The main file of the stamps.
+    main: Option<PathBuf>,
+    stamps: BesideStamps,
+}
+
+impl EarlierCopies {
+    /// Returns the stamps of the files that belong to a main file; `None` where another one, or none, was written last.
+    pub(super) fn of(&self, main: &Path) -> Option<&BesideStamps> {
+        self.main.as_deref().is_some_and(|own| is_same_path(own, main)).then_some(&self.stamps)
+    }
+
+    /// Notes a file that was written for a main file. Those of another one are forgotten.
+    pub(super) fn add(&mut self, main: &Path, path: PathBuf, stamp: FileStamp) {
+        if self.of(main).is_none() {
+            *self = Self { main: Some(main.to_path_buf()), stamps: BesideStamps::default() };
+        }
+        self.stamps.add(path, stamp);
+    }
+
+    /// Forgets all of them: they are files of the document now.
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
+    }
+}
 
 /// Files of a folder that another folder gets under the same names. Their bytes are read when each is written, so that one is in memory at a time.
 #[derive(Debug, Default)]

@@ -2,6 +2,7 @@
 
 use super::adapter::{ModelAdapter, TakeId, TakeVersions, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
+use super::copied_files::EarlierCopies;
 use super::edited_content::{EditedContent, plan_of_texts};
 use super::images::ImageSurvey;
 use super::import::ImportDoor;
@@ -44,7 +45,7 @@ pub struct Editable {
     /// State of its buffers in other files when they were last read or saved.
     pub(super) beside: BesideStamps,
     /// State of the files that saves into other folders wrote there, which later ones may replace.
-    pub(super) copies: BesideStamps,
+    pub(super) copies: EarlierCopies,
     /// The model with the skeleton and the takes that are in the file now.
     pub(super) on_disk: Arc<ModelData>,
     /// Index of each take among the animations of the file, once it was saved.
@@ -93,7 +94,7 @@ impl Editable {
             content,
             stamp,
             beside,
-            copies: BesideStamps::default(),
+            copies: EarlierCopies::default(),
             on_disk,
             places: None,
         })
@@ -120,7 +121,7 @@ impl Editable {
             content: EditedContent::Model(Arc::new(file)),
             stamp,
             beside: door.map(ReadOnce::stamps).unwrap_or_default(),
-            copies: BesideStamps::default(),
+            copies: EarlierCopies::default(),
             on_disk: Arc::clone(&loaded.model),
             places: None,
         })
@@ -140,7 +141,7 @@ impl Editable {
             content: EditedContent::Texts(texts),
             stamp,
             beside,
-            copies: BesideStamps::default(),
+            copies: EarlierCopies::default(),
             places: None,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
-use super::copied_files::other_file;
+use super::copied_files::{CANCELLED, other_file};
 use super::editable::{Editable, is_same_path, make_folder, opened, places};
 use super::edited_content::EditedContent;
 use super::save_files::{SaveFiles, WrittenFile};
@@ -39,8 +39,11 @@ impl Editable {
         copied.write(how.versions, cancel, |path, _, done| {
             saved.notices.extend(done.notices);
             saved.files.push(path.to_path_buf());
-            self.copies.add(done.path, done.stamp);
+            self.copies.add(&main, done.path, done.stamp);
         })?;
+        if how.is_elsewhere && cancel.is_cancelled() {
+            return Err(SaveFailure::Other(CANCELLED.to_owned()));
+        }
         for (path, stamp) in kept {
             // It was found to be the same when the files were listed.
             if !matches!(stamp.state(&RealFiles, &path), Ok(FileState::Same)) {
@@ -53,15 +56,14 @@ impl Editable {
         for (path, bytes) in &files {
             // A text of a project has versions as the project has.
             let versions = how.versions.filter(|_| matches!(self.content, EditedContent::Texts(_)));
-            let options = SaveOptions { expected: self.expected(path, &how), versions };
+            let options = SaveOptions { expected: self.expected(path, &main, &how), versions };
             let done = make_folder(path)
                 .map_err(UnsavedFile::from)
                 .and_then(|()| save_file(how.disk, path, bytes, &options));
             match done {
                 Ok(done) => {
-                    match how.is_elsewhere {
-                        true => self.copies.add(done.path.clone(), done.stamp),
-                        false => self.copies.renew(&done.path, done.stamp),
+                    if how.is_elsewhere {
+                        self.copies.add(&main, done.path.clone(), done.stamp);
                     }
                     beside.add(done.path, done.stamp);
                     saved.notices.extend(done.notices);
@@ -69,6 +71,9 @@ impl Editable {
                 }
                 Err(UnsavedFile { reason, own }) => {
                     if let Some((own, stamp)) = own {
+                        if how.is_elsewhere {
+                            self.copies.add(&main, own.clone(), stamp);
+                        }
                         beside.add(own, stamp);
                         saved.files.push(path.clone());
                     }
@@ -105,6 +110,7 @@ impl Editable {
         let name = file_name(&main);
         remove_unfinished(&RealFiles, folder_of(&main), &|other| buffer_of_save(other, &name).is_some());
         if how.becomes {
+            self.copies.forget();
             if !self.is_own(&main) {
                 self.beside = BesideStamps::default();
             }
@@ -123,13 +129,14 @@ impl Editable {
     }
 
     /// Returns what a file next to the main one must be when it is written.
-    fn expected(&self, path: &Path, how: &Writing<'_>) -> ExpectedFile<'_> {
+    fn expected(&self, path: &Path, main: &Path, how: &Writing<'_>) -> ExpectedFile<'_> {
         let is_text = matches!(self.content, EditedContent::Texts(_));
         let is_decided = || how.replaces.iter().any(|other| is_same_path(other, path));
         match self.beside.of(path) {
             // There was none when the files were listed, or an earlier copy.
             _ if how.is_elsewhere && is_text => {
-                self.copies.of(path).map_or(ExpectedFile::Nothing, ExpectedFile::Stamp)
+                let earlier = self.copies.of(main).and_then(|copies| copies.of(path));
+                earlier.map_or(ExpectedFile::Nothing, ExpectedFile::Stamp)
             }
             _ if how.overwrite != Overwrite::AsRead => ExpectedFile::Anything,
             // The user decided about a file that the document had not read.
@@ -156,7 +163,9 @@ impl Editable {
             }
         }
         for (path, _) in files {
-            if matches!(self.expected(path, how), ExpectedFile::Nothing) && path.symlink_metadata().is_ok() {
+            if matches!(self.expected(path, main, how), ExpectedFile::Nothing)
+                && path.symlink_metadata().is_ok()
+            {
                 return Err(SaveFailure::Exists(path.clone()));
             }
         }

@@ -50,6 +50,7 @@ mod journal_writer;
 mod leaving;
 mod line_names;
 mod load;
+mod loading_model;
 mod merged_texts;
 mod message;
 mod needed_files;

@@ -1,29 +1,14 @@
 //! Opening a model in place of the open one: the job that loads it, its progress, its end.
 
 use super::job::start_loading;
+use super::loading_model::LoadingModel;
 use super::message::DocumentReply;
 use super::open::Open;
 use super::owner::Document;
 use super::running_save::Deferred;
 use super::scan::Decision;
-use super::waiting_scene::SceneModelEdit;
 use super::{LoadError, Offer, OpenedModel, Progress, Source};
-use dragonfly_runtime::Job;
 use std::sync::Arc;
-
-/// A model that is loading.
-pub(super) struct LoadingModel {
-    /// The job, which is cancelled when this is dropped.
-    _job: Job,
-    ticket: u64,
-    pub(super) source: Source,
-    /// The unsaved work that is restored in it.
-    pub(super) offer: Option<(Offer, Decision)>,
-    /// Whether it is the open file, which gets the unsaved edits of the open document.
-    pub(super) gets_edits: bool,
-    /// The model of the open scene that it is.
-    pub(super) of_scene: Option<SceneModelEdit>,
-}
 
 impl Document {
     /// Starts to load a model in the background; `offer` is the unsaved work that it is opened for.

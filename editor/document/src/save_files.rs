@@ -53,6 +53,8 @@ impl Editable {
         let is_elsewhere = |_: &&Path| !is_device && self.is_elsewhere(output);
         let from = self.path.as_deref().map(folder_of).filter(is_elsewhere);
         let mut files = SaveFiles { is_elsewhere: from.is_some(), ..SaveFiles::default() };
+        let none = BesideStamps::default();
+        let earlier = self.copies.of(output).unwrap_or(&none);
         let Some(from) = from else {
             if !is_device {
                 self.ensure_not_needed(plan, output, cancel)?;
@@ -65,7 +67,7 @@ impl Editable {
             (Ok(from), _) => from,
             // Its folder is gone, and the texts are here.
             (Err(error), EditedContent::Texts(texts)) => {
-                files.add_texts(&saved_texts(texts, plan), folder, &self.copies)?;
+                files.add_texts(&saved_texts(texts, plan), folder, earlier)?;
                 files.written.push((output.to_path_buf(), main.bytes.clone()));
                 files.copied.add_missing(format!("nothing was copied from {}: {error}", from.display()));
                 return Ok(files);
@@ -81,7 +83,7 @@ impl Editable {
             }
             EditedContent::Texts(texts) => {
                 let texts = saved_texts(texts, plan);
-                files.add_texts(&texts, folder, &self.copies)?;
+                files.add_texts(&texts, folder, earlier)?;
                 let needed =
                     NeededFiles::of(&texts, self.path.as_deref().is_some_and(is_project), &from, cancel);
                 let is_other = |name: &String| texts.called(name).is_none();
@@ -91,7 +93,7 @@ impl Editable {
         if cancel.is_cancelled() {
             return Err(CANCELLED.to_owned());
         }
-        files.copied = CopiedFiles::find(from, folder, needed.names, &self.copies, cancel)?;
+        files.copied = CopiedFiles::find(from, folder, needed.names, earlier, cancel)?;
         files.copied.add_errors(needed.reasons);
         if files.has(output) {
             return Err(needed_file(output));
@@ -99,9 +101,7 @@ impl Editable {
         files.written.push((output.to_path_buf(), main.bytes.clone()));
         Ok(files)
     }
-}
 
-impl Editable {
     /// Checks that a save as another file of the folder does not replace a file that the document needs.
     fn ensure_not_needed(&self, plan: &SavePlan, output: &Path, cancel: &Cancel) -> Result<(), String> {
         let EditedContent::Texts(texts) = &self.content else { return Ok(()) };

@@ -6,7 +6,7 @@
 //! 4. The document records the end. Edits made since the beginning are unsaved.
 
 use super::Cancel;
-use super::beside::BesideStamps;
+use super::copied_files::EarlierCopies;
 use super::editable::Editable;
 use super::fault::{FaultInjection, FaultPoint};
 use super::history::Edited;
@@ -71,7 +71,7 @@ pub(super) struct FailedWrite {
     /// The file of the document with the files that were written before; `None` where they are files of a copy.
     pub(super) partly: Option<Box<Editable>>,
     /// The files in other folders that this save and earlier ones wrote.
-    pub(super) copies: BesideStamps,
+    pub(super) copies: EarlierCopies,
 }
 
 /// A save that has succeeded.

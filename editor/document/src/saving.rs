@@ -1,6 +1,6 @@
 //! Saving the open document.
 
-use super::beside::BesideStamps;
+use super::copied_files::EarlierCopies;
 use super::fault::FaultInjection;
 use super::open::Open;
 use super::recorded::EditsOrigin;
@@ -95,7 +95,7 @@ pub(super) struct FailedSave {
     /// The file of the document, where some of its files were written before.
     pub(super) partly: Option<Box<Editable>>,
     /// The files in other folders that this save and earlier ones wrote; `None` where it wrote none.
-    pub(super) copies: Option<BesideStamps>,
+    pub(super) copies: Option<EarlierCopies>,
 }
 
 impl From<NotSaved> for FailedSave {
@@ -241,7 +241,7 @@ impl Open {
 
     /// Ends a save that failed. `partly` is the file of the document, where some of its files were written before, and `copies` are the files
     /// in other folders that were.
-    pub(super) fn save_failed(&mut self, partly: Option<Box<Editable>>, copies: Option<BesideStamps>) {
+    pub(super) fn save_failed(&mut self, partly: Option<Box<Editable>>, copies: Option<EarlierCopies>) {
         self.edited.end_save(false);
         self.journal_writer.end_save(None);
         if let Some(editable) = partly {

@@ -51,14 +51,20 @@ impl LoadedModel {
         self.bounds.max.y - self.bounds.min.y
     }
 
-    /// Returns the factor that makes a figure as high as a human, with two digits, where it is much larger or smaller; otherwise 1.
+    /// Returns the factor that makes a figure as high as a human, with two digits, where it is much larger or smaller; otherwise, and for a height that no model has, 1.
     pub fn human_scale(&self) -> f64 {
         let height = self.height();
-        if !(height.is_finite() && height > 0.0) || (0.5..=4.0).contains(&height) {
+        if !(1e-6..=1e9).contains(&height) || (0.5..=4.0).contains(&height) {
             return 1.0;
         }
         let scale = f64::from(HUMAN_HEIGHT / height);
-        let digits = 10_f64.powi(1 - scale.log10().floor() as i32);
+        let mut digits = 1.0;
+        while scale * digits < 10.0 {
+            digits *= 10.0;
+        }
+        while scale * digits >= 100.0 {
+            digits /= 10.0;
+        }
         (scale * digits).round() / digits
     }
 

@@ -52,12 +52,13 @@ pub struct DroppedModel {
 impl DroppedModel {
     /// Creates one of a model that was read. A figure that is far from human size is made as high as a human. `is_role` is the choice of the user, if there is one.
     pub fn of(name: String, loaded: &LoadedModel, is_role: Option<bool>) -> Self {
-        let scale = if loaded.is_figure() { loaded.human_scale() } else { 1.0 };
         let form = match (is_role, ModelForm::of(loaded)) {
             (Some(false), _) => ModelForm::Object,
             (Some(true), ModelForm::Object) => ModelForm::Moving,
             (Some(true) | None, form) => form,
         };
+        // Things that others hold may be small, and houses large.
+        let scale = if form == ModelForm::Figure { loaded.human_scale() } else { 1.0 };
         Self { name, form, scale }
     }
 }
@@ -74,12 +75,12 @@ pub struct DroppedModels {
     /// The hashes of the models, as the script names them.
     pub hashes: Vec<(String, u64)>,
     /// The scene that gets them.
-    pub target: SceneTarget,
+    pub target: JobScene,
 }
 
 /// The scene for which a job works, so that its answer is not used in another one.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct SceneTarget {
+pub struct JobScene {
     /// A number that grows when another document is opened.
     pub opened: u64,
     /// The script that is shown, of a project; `None` for a script alone.
@@ -100,7 +101,7 @@ pub struct UnknownModels {
     /// The hashes of the models, as the script names them.
     pub hashes: Vec<(String, u64)>,
     /// The scene that gets them.
-    pub target: SceneTarget,
+    pub target: JobScene,
 }
 
 /// The use of files that a scene gets.
@@ -126,5 +127,5 @@ pub struct WantedFiles {
     /// What they are for.
     pub used: FileUse,
     /// The scene that gets them.
-    pub target: SceneTarget,
+    pub target: JobScene,
 }

@@ -220,8 +220,20 @@ fn a_path_of_few_points_follows_a_line_within_the_tolerance() {
             }
         })
         .collect();
-    let points = path_points(&fit(&bend, 0.01), 0.02);
+    let control = fit(&bend, 0.01);
+    let points = path_points(&control, 0.02);
     assert!(points.len() <= 14, "{} points: {points:?}", points.len());
+    let (path, on) = (StagePath::new(&points, true), points_of(&control));
+    for step in 0..=200 {
+        let on_path = path.at(path.length() * f64::from(step) / 200.0).position;
+        assert!(distance(&on, on_path) <= 0.025, "{on_path} is off the line");
+    }
+    let length = LineSamples::new(&control, false).length();
+    assert!(
+        (path.length() - length).abs() < 0.05,
+        "it goes back and forth: {} m, not {length}",
+        path.length()
+    );
     let straight = fit(&[DVec3::ZERO, DVec3::X], 0.01);
     assert_eq!(path_points(&straight, 0.001), [DVec3::ZERO, DVec3::X]);
     assert!(path_points(&[], 0.1).is_empty() && path_points(&[DVec3::X; 4], 0.1).is_empty());

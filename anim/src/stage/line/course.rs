@@ -45,9 +45,21 @@ pub fn path_points(control: &[DVec3], tolerance: f64) -> Vec<DVec3> {
         }
         let place = chosen.partition_point(|&at| at < farthest.1);
         chosen.insert(place, farthest.1);
-        points.insert(place, line[farthest.1]);
+        keep_even(&mut chosen);
+        points = chosen.iter().map(|&at| line[at]).collect();
     }
     points
+}
+
+/// Adds places between others until no distance is much larger than the one before or after it: a smooth path would overshoot there.
+fn keep_even(chosen: &mut Vec<usize>) {
+    while let Some(place) = (1..chosen.len().saturating_sub(1)).find_map(|at| {
+        let [before, after] = [chosen[at] - chosen[at - 1], chosen[at + 1] - chosen[at]];
+        let is_uneven = before.max(after) > 2 * before.min(after) + 1;
+        is_uneven.then_some(if before > after { at } else { at + 1 })
+    }) {
+        chosen.insert(place, (chosen[place - 1] + chosen[place]) / 2);
+    }
 }
 
 /// Number of places ahead on a path among which the nearest one is looked for, so that a line that crosses itself is followed in order.

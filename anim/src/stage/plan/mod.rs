@@ -275,13 +275,13 @@ impl StagePlan {
         self.things.get(thing)?.places.in_progress(time)
     }
 
-    /// Returns the take that a thing plays at `time`, the one that began last: the action that plays it, its index in the model, and the time since its
-    /// start. `None` while it plays none with its whole body, and past the end.
-    pub fn take_at(&self, thing: usize, time: StageTime) -> Option<(usize, usize, StageTime)> {
+    /// Returns the action that plays a take with the whole body of a thing at `time`, or that played one before, the one that began last, and the time
+    /// since the start of the take. `None` before the first one.
+    pub fn take_at(&self, thing: usize, time: StageTime) -> Option<(usize, StageTime)> {
         let thing = self.things.get(thing)?;
         let lane = thing.poses.first()?;
         let cue = lane.cues[..lane.cues.partition_point(|cue| cue.span.begin <= time)].last()?;
-        Some((cue.span.action, cue.take, poses::take_time(cue, &thing.places, time)))
+        Some((cue.span.action, poses::take_time(cue, &thing.places, time)))
     }
 
     /// Returns the length of the way on which an action leads a thing, meters; `None` for an action that leads it nowhere.

@@ -3,7 +3,7 @@
 use super::scene_gizmo::joined;
 use super::scene_text::{add_all, step, with_hashes};
 use crate::panels::dropped_files::{
-    DropPlace, DroppedModel, DroppedModels, ModelForm, SceneTarget, UnknownModels,
+    DropPlace, DroppedModel, DroppedModels, JobScene, ModelForm, UnknownModels,
 };
 use crate::panels::request::Effect;
 use crate::panels::scene::{
@@ -44,7 +44,7 @@ pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> O
     let is_held = |model: &DroppedModel| model.form != ModelForm::Figure;
     let effect = match &dropped.place {
         DropPlace::Bone(bone, _) if dropped.models.iter().any(is_held) => hold(workspace, dropped, bone),
-        place => {
+        place @ (DropPlace::Bone(..) | DropPlace::At(_) | DropPlace::Nowhere) => {
             let things = standing(dropped.models.iter(), place);
             add_all(workspace, &things, &dropped.sounds, &dropped.hashes)
         }
@@ -88,6 +88,7 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
     let (figures, held): (Vec<&DroppedModel>, Vec<&DroppedModel>) =
         dropped.models.iter().partition(|model| model.form == ModelForm::Figure);
     let figures = standing(figures.into_iter(), &dropped.place);
+    let scene = workspace.model.view()?.scene.clone()?;
     let mut added = Vec::new();
     let at = workspace.read().scene_time();
     let effect = step(workspace, |base| {
@@ -112,7 +113,7 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
         }
         let text = script.tree().text().to_string();
         let change = base.step(text, ScriptLabel::AddProp, ChangedThings::None);
-        Ok(with_hashes(change, base, &dropped.hashes))
+        Ok(with_hashes(change, base, &scene, &dropped.hashes))
     });
     if effect.is_some() {
         workspace.scene.await_things(added);
@@ -125,10 +126,10 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
 pub(super) const OTHER_SCENE: &str = "The scene is not open any more: its files were not added";
 
 /// Returns the scene that is shown.
-pub(super) fn target_of(workspace: &Workspace) -> SceneTarget {
+pub(super) fn target_of(workspace: &Workspace) -> JobScene {
     let read = workspace.read();
     let script = read.scene().filter(|scene| scene.is_of_project()).map(|scene| Arc::clone(&scene.name));
-    SceneTarget { opened: read.scene_editing.sounds().opened(), script }
+    JobScene { opened: read.scene_editing.sounds().opened(), script }
 }
 
 /// Returns what is known of a model that the scene has read; `None` for others.

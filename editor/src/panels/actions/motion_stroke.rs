@@ -21,6 +21,9 @@ use std::sync::Arc;
 /// Maximum number of frames on which a bone is moved in one step.
 const MOST: usize = 20_000;
 
+/// Warning about a stroke that a bone cannot follow.
+const LEAVES: &str = "The bone cannot follow this stroke: it leaves the view";
+
 /// Largest distance between the stroke and the way from one key to the next, as a part of the length of the stroke.
 const TOLERANCE: f64 = 0.005;
 
@@ -52,10 +55,6 @@ pub(in crate::panels) fn choose(workspace: &mut Workspace) {
 /// distance from the camera.
 pub(super) fn draw(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> {
     let (bone, mode) = driven(workspace)?;
-    if let Some(reason) = workspace.read().scope_refusal() {
-        workspace.say(MessageSeverity::Warning, reason);
-        return None;
-    }
     let panels = workspace.read();
     let (name, view) = (panels.take_ref()?, panels.view?);
     // The take as the viewport shows it.
@@ -106,7 +105,11 @@ pub(super) fn draw(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Ef
     } else {
         let targets: Option<Vec<DVec3>> =
             frames.iter().zip(&places).map(|(&time, &place)| target(time, place)).collect();
-        let mut times = needed_times(&frames, &targets?, TOLERANCE * samples.length());
+        let Some(targets) = targets else {
+            workspace.say(MessageSeverity::Warning, LEAVES);
+            return None;
+        };
+        let mut times = needed_times(&frames, &targets, TOLERANCE * samples.length());
         // Keys that the bones have already would pull them away from the stroke.
         let first = reach(&mut hold_at(from), places[0].as_vec3())?;
         let bones: Vec<BoneIndex> = first.iter().filter_map(bone_of).collect();
@@ -124,7 +127,7 @@ pub(super) fn draw(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Ef
         })
         .collect();
     let Some(at) = at else {
-        workspace.say(MessageSeverity::Warning, "The bone cannot follow this stroke: it leaves the view");
+        workspace.say(MessageSeverity::Warning, LEAVES);
         return None;
     };
     locks::unlocked(workspace, edit(Edit::SetPoses(SetPoses { take: name, at, unstep: true })))

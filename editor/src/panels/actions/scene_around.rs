@@ -37,14 +37,15 @@ pub(super) fn enter(workspace: &mut Workspace, thing: &str) -> Option<()> {
 /// Returns the take that a thing plays at a time, the one that began last.
 fn clip_at(lanes: &SceneLanes, scene: &SceneView, thing: usize, time: StageTime) -> Option<EnteredClip> {
     let (script, plan) = (scene.script.as_ref()?, scene.plan.as_ref()?);
-    let (action, _, after) = plan.take_at(thing, time)?;
+    let (action, after) = plan.take_at(thing, time)?;
     let take = script.element(action).value("take")?.to_owned();
     let (_, bar) = lanes.bar_of(action)?;
     let speed = match bar.clip {
         Some(clip) => clip.speed.to_f64(),
         // On a way, the take goes as fast as the feet do: measured over the next moment.
         None => {
-            let later = plan.take_at(thing, time + StageTime::from_seconds(MOMENT))?.2;
+            let later = plan.take_at(thing, time + StageTime::from_seconds(MOMENT));
+            let later = later.filter(|(of, _)| *of == action).map_or(after, |(_, later)| later);
             let speed = (later - after).seconds() / MOMENT;
             if speed > 0.0 { speed } else { 1.0 }
         }

@@ -328,8 +328,9 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
     }
     let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
     let effect = edit_lines(workspace, &scene, ScriptLabel::EraseLine, |lines| {
-        let removed = names.iter().map(|name| lines.removed(line_named(lines, name)?));
-        TextSplices::joined(removed.collect::<Option<Vec<_>>>()?)
+        // A name may be gone, by undo or by the eraser.
+        let there = names.iter().filter_map(|name| line_named(lines, name));
+        TextSplices::joined(there.map(|line| lines.removed(line)).collect::<Option<Vec<_>>>()?)
     });
     if effect.is_some() {
         workspace.scene.select_line(None);

@@ -8,7 +8,7 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_document::edit::ScriptLabel;
-use dragonfly_document::{Change, listed_models};
+use dragonfly_document::{Change, SceneView, listed_models};
 use std::sync::Arc;
 
 /// Sends a new text of the script.
@@ -72,8 +72,16 @@ pub(in crate::panels) fn add(workspace: &mut Workspace, thing: &NewThing) -> Opt
 }
 
 /// Returns a change by which the project, if there is one, also lists the models of these files with their hashes.
-pub(super) fn with_hashes(change: ScriptChange, base: &SceneBase, hashes: &[(String, u64)]) -> ScriptChange {
-    let Some(project) = base.script.project() else { return change };
+/// A project whose text has errors gets them later: with the first edit of the model, or of the next one that is added.
+pub(super) fn with_hashes(
+    change: ScriptChange,
+    base: &SceneBase,
+    scene: &SceneView,
+    hashes: &[(String, u64)],
+) -> ScriptChange {
+    let Some(project) = base.script.project().filter(|_| scene.project_errors.is_empty()) else {
+        return change;
+    };
     let models = hashes.iter().map(|(file, hash)| (file.as_str(), *hash));
     let listed = listed_models(project, models, change.label);
     ScriptChange { also: change.also.into_iter().chain(listed).collect(), ..change }
@@ -92,6 +100,7 @@ pub(super) fn add_all(
         ([thing, ..], []) => thing.label(),
         _ => ScriptLabel::AddFiles,
     };
+    let scene = workspace.model.view()?.scene.clone()?;
     let at = workspace.read().scene_time();
     let mut added = Vec::new();
     let effect = step(workspace, |base| {
@@ -106,7 +115,7 @@ pub(super) fn add_all(
             script = Arc::new(with_new_sound(&script, sound, at)?);
         }
         let text = script.tree().text().to_string();
-        Ok(with_hashes(base.step(text, label, ChangedThings::None), base, hashes))
+        Ok(with_hashes(base.step(text, label, ChangedThings::None), base, &scene, hashes))
     });
     if effect.is_some() && !added.is_empty() {
         workspace.scene.await_things(added);

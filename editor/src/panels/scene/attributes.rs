@@ -186,48 +186,51 @@ impl SceneAttributes {
     ) {
         let (theme, row) = (Theme::of(ui), field.row);
         let written = field.element.attribute(row.name).map(|attribute| &*attribute.value);
-        ui.horizontal(|ui| {
-            ui.add_space(2.0 * GRID);
-            let color = if written.is_some() { theme.text } else { theme.weak };
-            let (rect, label) = ui.allocate_exact_size(egui::vec2(82.0, 24.0), egui::Sense::hover());
-            widgets::text_in(ui, rect, row.name, &egui::TextStyle::Body, color);
-            label.on_hover_text(format!("{}\n{}", row.help, row.value.expected));
-            let is_typed =
-                self.typed.as_ref().is_some_and(|(of, name, _)| (of, *name) == (&field.owner, row.name));
-            if !is_typed && !row.value.choices.is_empty() {
-                return choices(ui, field, context, requests);
-            }
-            let mut text = match &self.typed {
-                Some((_, _, text)) if is_typed => text.clone(),
-                Some(_) | None => written.unwrap_or_default().to_owned(),
-            };
-            let has_names = matches!(field.owner, FieldOwner::Element(_))
-                && NAMED.contains(&row.name)
-                && field.element.is_own()
-                && field.element.attribute(row.name).is_some();
-            let beside = if has_names { NAMES } else { 0.0 };
-            let width = (ui.available_width() - 2.0 * GRID - beside).max(24.0);
-            let edit = TextEdit::singleline(&mut text)
-                .hint_text(row.default)
-                .align(egui::Align2::LEFT_CENTER)
-                .desired_width(width);
-            let name = match &field.owner {
-                FieldOwner::Element(_) => row.name.to_owned(),
-                FieldOwner::Line(_) => format!("line {}", row.name),
-            };
-            let response = ui.add(edit).accessible_name(name);
-            let escape = ui.input(|input| input.key_pressed(Key::Escape));
-            if response.lost_focus() && is_typed {
-                self.typed = None;
-                if !escape && text != written.unwrap_or_default() {
-                    requests.push(Request::Scene(field.set(context, &text)));
+        // By its name: a field keeps the focus where another one is written before it.
+        ui.push_id(row.name, |ui| {
+            ui.horizontal(|ui| {
+                ui.add_space(2.0 * GRID);
+                let color = if written.is_some() { theme.text } else { theme.weak };
+                let (rect, label) = ui.allocate_exact_size(egui::vec2(82.0, 24.0), egui::Sense::hover());
+                widgets::text_in(ui, rect, row.name, &egui::TextStyle::Body, color);
+                label.on_hover_text(format!("{}\n{}", row.help, row.value.expected));
+                let is_typed =
+                    self.typed.as_ref().is_some_and(|(of, name, _)| (of, *name) == (&field.owner, row.name));
+                if !is_typed && !row.value.choices.is_empty() {
+                    return choices(ui, field, context, requests);
                 }
-            } else if response.has_focus() {
-                self.typed = Some((field.owner.clone(), row.name, text));
-            }
-            if has_names {
-                named_values(ui, field, context, requests);
-            }
+                let mut text = match &self.typed {
+                    Some((_, _, text)) if is_typed => text.clone(),
+                    Some(_) | None => written.unwrap_or_default().to_owned(),
+                };
+                let has_names = matches!(field.owner, FieldOwner::Element(_))
+                    && NAMED.contains(&row.name)
+                    && field.element.is_own()
+                    && field.element.attribute(row.name).is_some();
+                let beside = if has_names { NAMES } else { 0.0 };
+                let width = (ui.available_width() - 2.0 * GRID - beside).max(24.0);
+                let edit = TextEdit::singleline(&mut text)
+                    .hint_text(row.default)
+                    .align(egui::Align2::LEFT_CENTER)
+                    .desired_width(width);
+                let name = match &field.owner {
+                    FieldOwner::Element(_) => row.name.to_owned(),
+                    FieldOwner::Line(_) => format!("line {}", row.name),
+                };
+                let response = ui.add(edit).accessible_name(name);
+                let escape = ui.input(|input| input.key_pressed(Key::Escape));
+                if response.lost_focus() && is_typed {
+                    self.typed = None;
+                    if !escape && text != written.unwrap_or_default() {
+                        requests.push(Request::Scene(field.set(context, &text)));
+                    }
+                } else if response.has_focus() {
+                    self.typed = Some((field.owner.clone(), row.name, text));
+                }
+                if has_names {
+                    named_values(ui, field, context, requests);
+                }
+            })
         });
     }
 }
@@ -254,6 +257,9 @@ fn named_values(
         let at = written.value_range.start;
         let found =
             with_names(scene, ShownText::Script, |names| completions(script.tree().text(), at, names));
+        if found.is_none() {
+            ui.label(RichText::new("There is no other name").color(Theme::of(ui).weak));
+        }
         ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
             for item in found.iter().flat_map(|found| &found.items) {
                 if ui.selectable_label(*item.label == *written.value, &item.label).clicked() {

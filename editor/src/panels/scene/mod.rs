@@ -55,7 +55,7 @@ pub use line_eraser::LineEraser;
 pub use new_thing::{
     NewModel, NewThing, begin_text, new_thing_splices, with_new_sound, with_new_thing, with_run,
 };
-pub(in crate::panels) use outliner::thing_menu;
+pub(in crate::panels) use outliner::{active_request, thing_menu};
 pub use probe::SceneProbe;
 pub use renamed_things::RenamedThings;
 pub use request::{DraggedTake, LineRequest, SceneRequest, ScriptChange};

@@ -13,11 +13,10 @@ mod tools;
 
 use super::context::PanelContext;
 use super::request::Request;
-use super::scene::SceneRequest;
+use super::scene::{SceneRequest, active_request};
 use super::style;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, PanelSubject, widgets};
-use dragonfly_document::bones::Choice;
 use dragonfly_picture::ThroughCamera;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
@@ -143,10 +142,8 @@ fn edit_model(response: &Response, context: &PanelContext<'_>, requests: &mut Ve
 /// button is down, the right one only cancels a drag.
 fn thing_menu(response: &Response, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let open = response.secondary_clicked() && !response.ctx.input(|input| input.pointer.primary_down());
-    let thing = context.stage.hovered().filter(|thing| open && !context.scene_editing.is_selected(thing));
-    if let Some(thing) = thing {
-        let things = vec![Box::from(&**thing)];
-        requests.push(Request::Scene(SceneRequest::SelectThings(things, Choice::Replace)));
+    if let Some(thing) = context.stage.hovered().filter(|_| open) {
+        requests.push(Request::Scene(active_request(context, thing)));
     }
     let command = match () {
         () if open => Some(SetOpenCommand::Bool(true)),

@@ -117,6 +117,8 @@ impl Panel for Outliner {
                 self.group(ui, context, scene, (script, &listed, group), requests);
             }
             self.listed = listed;
+            // One that the search hides is not sought later.
+            self.sought = None;
             self.lines.show(ui, context, requests);
             self.takes.show(ui, context, scene, requests);
             ui.add_space(2.0 * GRID);
@@ -182,7 +184,7 @@ impl Outliner {
         }
         // Brings a thing into sight that was selected or added elsewhere.
         let sought = self.sought.as_deref();
-        if let Some(row) = group.iter().position(|own| Some(id_of(script, *own)) == sought) {
+        if let Some(row) = sought.and_then(|id| group.iter().position(|own| id_of(script, *own) == id)) {
             self.sought = None;
             let corner = pos2(ui.cursor().left(), top + row as f32 * ROW);
             let rect = Rect::from_min_size(corner, vec2(1.0, ROW));
@@ -265,4 +267,10 @@ pub(in crate::panels) fn thing_menu(ui: &mut Ui, context: &PanelContext<'_>, req
         Some(thing) => row::menu(ui, context, scene, thing, requests),
         None => submenu(ui, "Add", |ui| entries(ui, context, requests)),
     }
+}
+
+/// Returns the request that makes a thing the one of the menu: the last of the selected ones, or the only one.
+pub(in crate::panels) fn active_request(context: &PanelContext<'_>, thing: &str) -> SceneRequest {
+    let choice = if context.scene_editing.is_selected(thing) { Choice::Add } else { Choice::Replace };
+    SceneRequest::SelectThings(vec![thing.into()], choice)
 }

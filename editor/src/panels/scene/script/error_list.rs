@@ -30,7 +30,7 @@ pub(super) enum ListClick {
 
 /// The list of errors and notes. It is computed once for each view of the scene and each change of its sounds.
 #[derive(Debug, Default)]
-pub(super) struct ErrorList {
+pub(super) struct SceneErrorList {
     rows: Vec<ListedError>,
     /// The scene and the version of its sounds that the rows are of.
     of: Option<(Arc<SceneView>, [u64; 2])>,
@@ -50,7 +50,7 @@ struct ListedError {
     missing: Option<MissingFile>,
 }
 
-impl ErrorList {
+impl SceneErrorList {
     /// Adapts to a scene and its sounds. Returns whether the list was computed, because one of them changed.
     pub(super) fn update(&mut self, scene: &Arc<SceneView>, sounds: &SceneSounds) -> bool {
         let version = sounds.version();
@@ -164,7 +164,7 @@ fn missing_sounds(scene: &SceneView, sounds: &SceneSounds) -> Vec<ListedError> {
 }
 
 /// Draws the list. Returns what was clicked.
-pub(super) fn show(ui: &mut Ui, rect: Rect, list: &ErrorList) -> Option<ListClick> {
+pub(super) fn show(ui: &mut Ui, rect: Rect, list: &SceneErrorList) -> Option<ListClick> {
     let rows = &list.rows;
     if rows.is_empty() {
         return None;
@@ -224,8 +224,8 @@ mod tests {
     #[test]
     fn the_list_is_computed_once_for_each_view_and_each_change_of_the_sounds() {
         let (scene, mut sounds) = (Arc::new(SceneView::default()), SceneSounds::default());
-        let mut list = ErrorList::default();
-        let computed = |list: &mut ErrorList, scene, sounds: &SceneSounds| {
+        let mut list = SceneErrorList::default();
+        let computed = |list: &mut SceneErrorList, scene, sounds: &SceneSounds| {
             [list.update(scene, sounds), list.update(scene, sounds)]
         };
         assert_eq!(computed(&mut list, &scene, &sounds), [true, false]);

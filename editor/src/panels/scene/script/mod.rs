@@ -30,7 +30,7 @@ use egui::{
     CornerRadius, EventFilter, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer, TextEdit, Ui,
     pos2,
 };
-use error_list::{ErrorList, ListClick};
+use error_list::{ListClick, SceneErrorList};
 use lines::{byte_of, characters_before, lines_of, moved_position};
 use popup::{SuggestionKey, SuggestionList};
 use std::ops::Range;
@@ -61,7 +61,7 @@ pub struct ScriptPanel {
     caret: Option<CCursor>,
     /// The text that is shown.
     shown: ShownText,
-    errors: ErrorList,
+    errors: SceneErrorList,
 }
 
 impl Panel for ScriptPanel {

@@ -7,7 +7,7 @@ use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::request::Request;
 use crate::panels::scene::thing_icon::icon;
-use crate::panels::scene::{SceneRequest, thing_menu};
+use crate::panels::scene::{SceneRequest, active_request, thing_menu};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_document::bones::Choice;
@@ -53,9 +53,8 @@ pub(super) fn show(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Reque
             requests.push(Request::Scene(SceneRequest::SelectThings(vec![lane.name.clone()], choice)));
         }
         if is_thing {
-            if response.secondary_clicked() && !is_selected {
-                let things = vec![lane.name.clone()];
-                requests.push(Request::Scene(SceneRequest::SelectThings(things, Choice::Replace)));
+            if response.secondary_clicked() {
+                requests.push(Request::Scene(active_request(sheet.context, &lane.name)));
             }
             response.context_menu(|ui| thing_menu(ui, sheet.context, requests));
         }
