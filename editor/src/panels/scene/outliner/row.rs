@@ -159,7 +159,7 @@ fn find_request(thing: &ScriptElement, scene: &SceneView) -> Option<Request> {
         SceneModel::Missing(_) => {
             let missing = scene.missing_model(name);
             let is_named_here = scene.included_place_of(&missing).is_none();
-            is_named_here.then(|| Request::Scene(SceneRequest::Find(missing)))
+            is_named_here.then_some(Request::Scene(SceneRequest::Find(missing)))
         }
         SceneModel::Loading | SceneModel::Loaded(_) => None,
     }
