@@ -289,7 +289,8 @@ fn a_right_click_in_the_viewport_opens_the_menu_of_the_thing_there() {
     window.run_steps(2);
     let things = window.state().state.read().scene_editing.things().to_vec();
     assert_eq!(things, [Box::from("ben")]);
-    assert!(window.query_by_label("Edit takes and bones").is_some(), "its menu");
+    let entry = window.get_by_label("Edit takes and bones").rect();
+    assert!(entry.height() < 30.0 && entry.width() > 120.0, "its menu, on one line: {entry}");
 }
 
 #[test]

@@ -250,8 +250,8 @@ fn helpers_and_boxes_of_selected_things_are_drawn_when_asked_for() {
     };
     assert_eq!(lines(&|_| {}), 0, "nothing unless asked for");
     let helpers = lines(&|scene| scene.look.helpers = true);
-    // Two cameras of ten lines, a mark of a circle and an arrow; paths are drawn with the lines.
-    assert_eq!(helpers, 2 * 10 + 17);
+    // The camera of ten lines that is not the one of the shot, a mark of a circle and an arrow; paths are drawn with the lines.
+    assert_eq!(helpers, 10 + 17);
     let selected = ThingAppearance { selected: vec!["anna".into()].into(), hovered: Some("door".into()) };
     let boxes = lines(&|scene| {
         scene.look.helpers = false;

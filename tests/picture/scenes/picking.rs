@@ -160,8 +160,8 @@ fn an_effect_has_a_symbol_where_it_is_and_is_picked_there() {
     };
     assert_eq!(lines(&mut scene), 0);
     scene.look.helpers = true;
-    // A camera of ten lines, a ring of sixteen and four drops.
-    assert_eq!(lines(&mut scene), 10 + 16 + 4);
+    // A ring of sixteen lines and four drops; the camera is that of the shot.
+    assert_eq!(lines(&mut scene), 16 + 4);
     let at = pixel(&scene, Vec3::Y);
     assert_eq!(scene.pick_things(at).first().map(|picked| picked.thing.to_string()).as_deref(), Some("rain"));
 }

@@ -189,6 +189,7 @@ pub(super) fn menu(
     requests: &mut Vec<Request>,
 ) {
     let (kind, id) = (thing.row.name, thing.value("id").unwrap_or_default());
+    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
     if let Some(place) = included_place(thing, scene) {
         ui.add_enabled(false, egui::Button::new(place).frame_when_inactive(false));
     } else if let Some(find) = find_request(thing, scene)
