@@ -104,6 +104,18 @@ fn a_length_that_is_written_is_not_changed_by_a_speed() {
     assert_eq!(text(&window), FOXES);
 }
 
+/// Drags the selected bars straight down to the lane of the other role.
+fn drag_to_ben(window: &mut Window) {
+    let lanes = Lanes::of(window);
+    let from = lanes.bar(window, LOOKS).center();
+    let ben = lanes.bar(window, MOVE).center();
+    press(window, from);
+    for share in [0.5, 1.0] {
+        move_to(window, pos2(from.x, from.y + (ben.y - from.y) * share), Modifiers::NONE);
+    }
+    release(window, pos2(from.x, ben.y));
+}
+
 #[test]
 fn several_bars_go_to_the_lane_of_another_role_in_one_step_and_keep_their_distances() {
     let mut window = scene(FOXES).window();
@@ -111,14 +123,7 @@ fn several_bars_go_to_the_lane_of_another_role_in_one_step_and_keep_their_distan
     window.state_mut().state.execute(Request::Scene(select));
     window.run_steps(2);
     let before = [times(&window, LOOKS), times(&window, RUN)];
-    let lanes = Lanes::of(&window);
-    let from = lanes.bar(&window, LOOKS).center();
-    let ben = lanes.bar(&window, MOVE).center();
-    press(&mut window, from);
-    for share in [0.5, 1.0] {
-        move_to(&mut window, pos2(from.x, from.y + (ben.y - from.y) * share), Modifiers::NONE);
-    }
-    release(&mut window, pos2(from.x, ben.y));
+    drag_to_ben(&mut window);
     let new = new_lines(FOXES, &text(&window));
     assert_eq!(window.state().steps(), (1, 1), "{new:?}");
     let plays: Vec<&String> = new.iter().filter(|line| line.starts_with("<play ")).collect();
@@ -157,14 +162,7 @@ fn bars_that_another_role_cannot_do_stay_where_they_are_and_the_status_line_has_
     let select = SceneRequest::SelectActions(vec![attach, LOOKS], Choice::Replace);
     window.state_mut().state.execute(Request::Scene(select));
     window.run_steps(2);
-    let lanes = Lanes::of(&window);
-    let from = lanes.bar(&window, LOOKS).center();
-    let ben = lanes.bar(&window, MOVE).center();
-    press(&mut window, from);
-    for share in [0.5, 1.0] {
-        move_to(&mut window, pos2(from.x, from.y + (ben.y - from.y) * share), Modifiers::NONE);
-    }
-    release(&mut window, pos2(from.x, ben.y));
+    drag_to_ben(&mut window);
     let new = text(&window);
     assert!(new.contains("<play id=\"looks\" who=\"ben\""), "{new}");
     assert!(new.contains("<attach who=\"anna\" to=\"door\" begin=\"3\"/>"), "{new}");

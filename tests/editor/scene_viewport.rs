@@ -9,7 +9,7 @@ use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Change, DocumentMessage, View};
+use dragonfly_document::{Change, DocumentMessage, LoadedModel, SceneModel, View};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::gizmo::GizmoView;
@@ -33,6 +33,24 @@ fn execute(window: &mut Window, request: Request) -> Option<Effect> {
     };
     window.run_steps(2);
     effect
+}
+
+/// Returns the model of the roles.
+fn fox(bench: &Workbench) -> Arc<LoadedModel> {
+    match &bench.state.read().scene().expect("a scene").models["Fox.glb"] {
+        SceneModel::Loaded(loaded) => Arc::clone(loaded),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Puts the pointer into the middle of the viewport, over a thing.
+fn point_at(window: &mut Window, thing: &str) -> egui::Pos2 {
+    window.run_steps(3);
+    let middle = window.get_by_label("Viewport").rect().center();
+    window.event(Event::PointerMoved(middle));
+    window.run_steps(2);
+    assert!(window.state_mut().state.set_pointed_thing(Some(thing.into())));
+    middle
 }
 
 fn select(window: &mut Window, ids: &[&str]) {
@@ -229,10 +247,7 @@ fn a_model_is_opened_at_the_time_and_the_place_that_it_has_in_the_scene_and_seen
     bench.state.execute(Request::Seek(time as f32));
     let eye = bench.state.read().camera.eye();
     bench.state.execute(Request::Scene(SceneRequest::EditModel("anna".into())));
-    let loaded = match &bench.state.read().scene().expect("a scene").models["Fox.glb"] {
-        dragonfly_document::SceneModel::Loaded(loaded) => Arc::clone(loaded),
-        other => panic!("{other:?}"),
-    };
+    let loaded = fox(&bench);
     let run = loaded.model.animation.takes.iter().position(|take| take.name == "Run").expect("a take");
     let model = View { waiting_scene: Some("scene.xml".into()), ..View::opened(5, loaded) };
     bench.state.show(model);
@@ -262,10 +277,7 @@ fn a_model_on_a_way_is_opened_with_the_take_for_walking_at_its_step() {
     let (_, after) = plan.take_at(ben, StageTime::from_seconds(f64::from(time))).expect("a take");
     assert!(after > StageTime::ZERO);
     bench.state.execute(Request::Scene(SceneRequest::EditModel("ben".into())));
-    let loaded = match &bench.state.read().scene().expect("a scene").models["Fox.glb"] {
-        dragonfly_document::SceneModel::Loaded(loaded) => Arc::clone(loaded),
-        other => panic!("{other:?}"),
-    };
+    let loaded = fox(&bench);
     let walk = loaded.model.animation.takes.iter().position(|take| take.name == "Walk").expect("a take");
     bench.state.show(View { waiting_scene: Some("scene.xml".into()), ..View::opened(5, loaded) });
     let read = bench.state.read();
@@ -276,11 +288,7 @@ fn a_model_on_a_way_is_opened_with_the_take_for_walking_at_its_step() {
 #[test]
 fn a_right_click_in_the_viewport_opens_the_menu_of_the_thing_there() {
     let mut window = scene(FOXES).window();
-    window.run_steps(3);
-    let middle = window.get_by_label("Viewport").rect().center();
-    window.event(Event::PointerMoved(middle));
-    window.run_steps(2);
-    assert!(window.state_mut().state.set_pointed_thing(Some("ben".into())));
+    let middle = point_at(&mut window, "ben");
     for pressed in [true, false] {
         let button = PointerButton::Secondary;
         window.event(Event::PointerButton { pos: middle, button, pressed, modifiers: Modifiers::NONE });
@@ -296,11 +304,7 @@ fn a_right_click_in_the_viewport_opens_the_menu_of_the_thing_there() {
 #[test]
 fn nothing_is_highlighted_any_more_when_the_pointer_has_left_the_viewport() {
     let mut window = scene(FOXES).window();
-    window.run_steps(3);
-    let middle = window.get_by_label("Viewport").rect().center();
-    window.event(Event::PointerMoved(middle));
-    window.run_steps(2);
-    assert!(window.state_mut().state.set_pointed_thing(Some("ben".into())));
+    point_at(&mut window, "ben");
     assert!(window.state().state.read().stage.hovered().is_some());
     window.event(Event::PointerMoved(egui::pos2(5.0, 5.0)));
     window.run_steps(2);

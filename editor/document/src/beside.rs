@@ -3,7 +3,7 @@
 
 use super::{FileAccessError, Folder};
 use dragonfly_anim::format::{AssetError, AssetFs};
-use dragonfly_store::{FileStamp, FileState, RealFiles};
+use dragonfly_store::{FileData, FileStamp, FileState, RealFiles};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io;
@@ -57,20 +57,30 @@ impl AssetFs for ReadOnce {
         if is_image(&bytes) {
             return Ok(bytes);
         }
-        match before.map(|before| FileStamp::of_read(&RealFiles, &path, &before, &bytes)) {
-            Some(Ok(stamp)) => {
-                let file = BufferFile { path, stamp, bytes: Some(bytes.clone()) };
-                self.read.borrow_mut().insert(name.to_owned(), file);
-            }
-            Some(Err(error)) if error.kind() == io::ErrorKind::WouldBlock => {
-                return Err(AssetError::Failed(
-                    "it changed while it was read; open the file again".to_owned(),
-                ));
-            }
-            // A change that cannot be detected now is not detected later either.
-            _ => {}
+        let changed = |_| AssetError::Failed("it changed while it was read; open the file again".to_owned());
+        let stamp = stamp_of(Some(&*path).zip(before.as_ref()), &bytes).map_err(changed)?;
+        if let Some(stamp) = stamp {
+            let file = BufferFile { path, stamp, bytes: Some(bytes.clone()) };
+            self.read.borrow_mut().insert(name.to_owned(), file);
         }
         Ok(bytes)
+    }
+}
+
+/// Returns the stamp of a file that was read as `bytes` after its metadata was taken; `None` where there is no file, or its state cannot be examined.
+///
+/// # Errors
+///
+/// The file changed while it was read.
+pub(super) fn stamp_of(file: Option<(&Path, &FileData)>, bytes: &[u8]) -> Result<Option<FileStamp>, String> {
+    let Some((path, before)) = file else { return Ok(None) };
+    match FileStamp::of_read(&RealFiles, path, before, bytes) {
+        Ok(stamp) => Ok(Some(stamp)),
+        Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
+            Err("the file changed while it was read; open it again".to_owned())
+        }
+        // A change that cannot be detected now will be noticed when the file is saved.
+        Err(_) => Ok(None),
     }
 }
 

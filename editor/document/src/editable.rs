@@ -1,7 +1,7 @@
 //! A file that is edited: its data, and everything needed to save it without changing the rest.
 
 use super::adapter::{ModelAdapter, TakeId, TakeVersions, TextFiles};
-use super::beside::{BesideStamps, ReadOnce};
+use super::beside::{BesideStamps, ReadOnce, stamp_of};
 use super::copied_files::EarlierCopies;
 use super::edited_content::{EditedContent, plan_of_texts};
 use super::images::ImageSurvey;
@@ -19,7 +19,7 @@ use dragonfly_anim::format::{
     SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{FileData, FileStamp, FileState, RealFiles, Vfs, folder_of};
+use dragonfly_store::{FileStamp, FileState, RealFiles, Vfs, folder_of};
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -296,23 +296,6 @@ impl Editable {
     /// Detaches the document from its file: the next save asks for a path.
     pub(super) fn forget_file(&mut self) {
         self.stamp = None;
-    }
-}
-
-/// Returns the stamp of a file that was read as `bytes` after its metadata was taken; `None` where there is no file, or its state cannot be examined.
-///
-/// # Errors
-///
-/// The file changed while it was read.
-pub(super) fn stamp_of(file: Option<(&Path, &FileData)>, bytes: &[u8]) -> Result<Option<FileStamp>, String> {
-    let Some((path, before)) = file else { return Ok(None) };
-    match FileStamp::of_read(&RealFiles, path, before, bytes) {
-        Ok(stamp) => Ok(Some(stamp)),
-        Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {
-            Err("the file changed while it was read; open it again".to_owned())
-        }
-        // A change that cannot be detected now will be noticed when the file is saved.
-        Err(_) => Ok(None),
     }
 }
 

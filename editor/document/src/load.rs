@@ -2,8 +2,8 @@
 //! Loading reports its progress and can be cancelled.
 
 use super::adapter::{ModelAdapter, TextFiles, unused_layers};
+use super::beside::stamp_of;
 use super::beside::{BesideStamps, ReadOnce};
-use super::editable::stamp_of;
 use super::images::ImageSurvey;
 use super::import;
 use super::source::{LoadError, Source};

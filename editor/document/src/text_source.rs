@@ -1,8 +1,8 @@
 //! Reads the texts of a document: the script of a scene, or a project with its scripts and its file of lines.
 
 use super::adapter::{TextFile, TextFiles};
+use super::beside::stamp_of;
 use super::beside::{BesideStamps, ReadOnce};
-use super::editable::stamp_of;
 use super::source::{LoadError, file_name};
 use super::{FileAccessError, read_file};
 use dragonfly_anim::format::AssetFs;

@@ -25,16 +25,26 @@ pub(super) fn show(
     at: Option<u32>,
     requests: &mut Vec<Request>,
 ) {
-    let open = response.secondary_clicked() && !response.ctx.input(|input| input.pointer.primary_down());
+    let open = is_asked(response);
     if open && let Some(bone) = at.filter(|&bone| !context.selection.contains(bone)) {
         requests.push(Request::Select(Some(bone)));
     }
+    at_pointer(response, open, |ui| entries(ui, context, requests));
+}
+
+/// Returns whether the menu of `response` is asked for. While the left button is down, the right one only cancels a drag.
+pub(super) fn is_asked(response: &Response) -> bool {
+    response.secondary_clicked() && !response.ctx.input(|input| input.pointer.primary_down())
+}
+
+/// Draws a menu where the pointer was when it was opened; a click on `response` closes it.
+pub(super) fn at_pointer(response: &Response, opens: bool, entries: impl FnOnce(&mut Ui)) {
     let command = match () {
-        () if open => Some(SetOpenCommand::Bool(true)),
+        () if opens => Some(SetOpenCommand::Bool(true)),
         () if response.clicked() => Some(SetOpenCommand::Bool(false)),
         () => None,
     };
-    Popup::menu(response).open_memory(command).at_pointer_fixed().show(|ui| entries(ui, context, requests));
+    Popup::menu(response).open_memory(command).at_pointer_fixed().show(entries);
 }
 
 fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {

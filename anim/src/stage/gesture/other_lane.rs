@@ -153,8 +153,8 @@ fn may_go_onto(scene: &GestureScene<'_>, action: usize, onto: &str) -> Result<()
 
 /// The numbers of elements after one of them went to another place of the text.
 struct MovedElement {
-    /// Its number, and how many there are with those in it.
-    own: [usize; 2],
+    /// Its number and those of the elements in it, before.
+    own: std::ops::Range<usize>,
     /// The number that it has there.
     to: usize,
 }
@@ -173,17 +173,16 @@ impl MovedElement {
         };
         let count = end_of(element) - element;
         let to = if before > element { before.saturating_sub(count) } else { before };
-        Self { own: [element, count], to }
+        Self { own: element..element + count, to }
     }
 
     /// Returns the new number of an element.
     fn after(&self, element: usize) -> usize {
-        let [own, count] = self.own;
-        if (own..own + count).contains(&element) {
-            return self.to + element - own;
+        if self.own.contains(&element) {
+            return self.to + element - self.own.start;
         }
-        let without = if element > own { element - count } else { element };
-        if without >= self.to { without + count } else { without }
+        let without = if element > self.own.start { element - self.own.len() } else { element };
+        if without >= self.to { without + self.own.len() } else { without }
     }
 }
 

@@ -40,16 +40,8 @@ pub fn path_point_splices(
     position: DVec3,
 ) -> Result<TextSplices, GestureRefusal> {
     let list = WrittenList::of(script, path)?;
-    let range = list.point(index).map(|range| list.in_script(range));
-    let Some(range) = range else {
-        return refused(format!("{path} has no such point"));
-    };
-    if position.abs().max_element() >= 1e6 {
-        return refused("The position is too far away");
-    }
-    let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
-    TextSplices::new(vec![TextSplice { range, text: point }])
-        .ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
+    let Some(range) = list.point(index) else { return refused(format!("{path} has no such point")) };
+    list.replaced(range, written(&[position])?)
 }
 
 /// Returns the replacements that give a path of the cast other points, meters, to 0.1 mm; also those of a path of the project.
@@ -66,11 +58,8 @@ pub fn path_points_splices(
         return refused(format!("{path} has no points of its own: move those of its line"));
     };
     in_scene_texts(script.tree(), element)?;
-    if points.iter().any(|point| point.abs().max_element() >= 1e6) {
-        return refused("The position is too far away");
-    }
-    let splices = points_text(points).and_then(|text| set_on_thing(script, element, "points", Some(&text)));
-    splices.ok_or_else(|| GestureRefusal("The position is not a number".to_owned()))
+    let splices = set_on_thing(script, element, "points", Some(&written(points)?));
+    splices.ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
 }
 
 /// Returns the points of a path of the cast as they are written, meters; `None` where there is no such path, and for one that follows a line.
@@ -96,15 +85,10 @@ pub fn add_path_point_splices(
     let (Some(before), Some(next)) = (before, list.point(index)) else {
         return refused(format!("{path} has no such part"));
     };
-    if position.abs().max_element() >= 1e6 {
-        return refused("The position is too far away");
-    }
-    let Some(point) = points_text(&[position]) else { return refused("The position is not a number") };
+    let point = written(&[position])?;
     // The blanks between the points are those between these two.
     let blanks = &list.text[before.end..next.start];
-    let range = list.in_script(before.end..before.end);
-    TextSplices::new(vec![TextSplice { range, text: format!("{blanks}{point}") }])
-        .ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
+    list.replaced(before.end..before.end, format!("{blanks}{point}"))
 }
 
 /// Returns the replacements that remove a point of a path of the cast; all others stay as they are written. The new text is not checked.
@@ -126,8 +110,15 @@ pub fn remove_path_point_splices(
         Some(before) => before.end..own.end,
         None => own.start..list.point(1).map_or(own.end, |next| next.start),
     };
-    TextSplices::new(vec![TextSplice { range: list.in_script(range), text: String::new() }])
-        .ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
+    list.replaced(range, String::new())
+}
+
+/// Returns points as they are written.
+fn written(points: &[DVec3]) -> Result<String, GestureRefusal> {
+    if points.iter().any(|point| point.abs().max_element() >= 1e6) {
+        return refused("The position is too far away");
+    }
+    points_text(points).ok_or_else(|| GestureRefusal("The position is not a number".to_owned()))
 }
 
 /// The list of numbers of a path of the cast, in the text that has it.
@@ -150,15 +141,15 @@ impl<'a> WrittenList<'a> {
         let Some(attribute) = tree.elements()[element].attribute("points") else {
             return refused(format!("{path} follows a line: its points are those of the line"));
         };
-        let written = attribute.value_range.clone();
+        let list = attribute.value_range.clone();
         let project = script.project().filter(|_| tree.elements()[element].origin == ElementOrigin::Project);
         Ok(match project {
             Some(project) => Self {
                 text: project.tree().text(),
-                list: written.start - SHARED..written.end - SHARED,
+                list: list.start - SHARED..list.end - SHARED,
                 offset: SHARED,
             },
-            None => Self { text: tree.text(), list: written, offset: 0 },
+            None => Self { text: tree.text(), list, offset: 0 },
         })
     }
 
@@ -166,8 +157,10 @@ impl<'a> WrittenList<'a> {
         point_range(self.text, self.list.clone(), index)
     }
 
-    fn in_script(&self, range: Range<usize>) -> Range<usize> {
-        range.start + self.offset..range.end + self.offset
+    /// Returns the replacement of a part of the list, in the script.
+    fn replaced(&self, range: Range<usize>, text: String) -> Result<TextSplices, GestureRefusal> {
+        let range = range.start + self.offset..range.end + self.offset;
+        TextSplices::new(vec![TextSplice { range, text }]).ok_or_else(|| GestureRefusal(NO_PLACE.to_owned()))
     }
 }
 

@@ -42,12 +42,13 @@ pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> O
         return None;
     }
     let is_held = |model: &DroppedModel| model.form != ModelForm::Figure;
-    let effect = match &dropped.place {
-        DropPlace::Bone(bone, _) if dropped.models.iter().any(is_held) => hold(workspace, dropped, bone),
-        place @ (DropPlace::Bone(..) | DropPlace::At(_) | DropPlace::Nowhere) => {
-            let things = standing(dropped.models.iter(), place);
-            add_all(workspace, &things, &dropped.sounds, &dropped.hashes)
-        }
+    let effect = if let DropPlace::Bone(bone, _) = &dropped.place
+        && dropped.models.iter().any(is_held)
+    {
+        hold(workspace, dropped, bone)
+    } else {
+        let things = standing(dropped.models.iter(), &dropped.place);
+        add_all(workspace, &things, &dropped.sounds, &dropped.hashes)
     };
     if effect.is_some() {
         say_scales(workspace, &dropped.models);

@@ -1,7 +1,7 @@
 //! The motion stroke: a stroke in the view becomes the path that a bone takes over time.
 
-use super::pose_line::chain_of;
-use super::{edit, locks, playback};
+use super::pose_line::{begin, chain_of};
+use super::{edit, locks};
 use crate::control::line::{DrawnStroke, LineUse};
 use crate::panels::keys::channel;
 use crate::panels::request::Effect;
@@ -37,16 +37,10 @@ pub(in crate::panels) fn choose(workspace: &mut Workspace) {
         return workspace.tools.controls_mut().line_mut().choose(None);
     }
     let Some((bone, _)) = driven(workspace) else { return };
-    let Some(view) = workspace.model.view() else { return };
-    let (take, time) = (workspace.player.take(), workspace.player.time());
-    let to_root = workspace.posed.update(view, take, time).to_root();
-    let pivot = to_root.get(bone as usize).map(|matrix| matrix.w_axis.truncate().as_dvec3());
-    playback::stop_at(workspace, time);
-    let line = workspace.tools.controls_mut().line_mut();
-    line.set_pivot(pivot.unwrap_or_default());
-    line.choose(Some(LineUse::Motion));
-    workspace.say(
-        MessageSeverity::Info,
+    begin(
+        workspace,
+        bone,
+        LineUse::Motion,
         "Draw the path of the bone over the selected keys or the play range; press Esc to stop",
     );
 }
@@ -170,7 +164,7 @@ fn selected_times(workspace: &Workspace, take: &Take) -> Vec<f32> {
 }
 
 fn sorted(mut times: Vec<f32>) -> Vec<f32> {
-    // Sorting is stable: of two at the same time, the exact time of a key is kept.
+    // Of two at almost the same time, the earlier one is kept.
     times.sort_by(f32::total_cmp);
     times.dedup_by(|later, earlier| *later - *earlier <= SAME_TIME);
     times

@@ -26,18 +26,25 @@ pub(in crate::panels) fn choose(workspace: &mut Workspace) {
         return workspace.tools.controls_mut().line_mut().choose(None);
     }
     let Some(chain) = chain(workspace) else { return };
+    begin(
+        workspace,
+        chain.root,
+        LineUse::Pose,
+        "Draw the line along which the selected bones lie, or with Alt the path of their end over time; click corners and end with Enter, or press Esc to stop",
+    );
+}
+
+/// Chooses the tool that draws for a bone, at the depth of the bone, and shows a hint. Playback stops.
+pub(super) fn begin(workspace: &mut Workspace, bone: BoneIndex, use_of: LineUse, hint: &str) {
     let Some(view) = workspace.model.view() else { return };
     let (take, time) = (workspace.player.take(), workspace.player.time());
     let to_root = workspace.posed.update(view, take, time).to_root();
-    let pivot = to_root.get(chain.root as usize).map(|matrix| matrix.w_axis.truncate().as_dvec3());
+    let pivot = to_root.get(bone as usize).map(|matrix| matrix.w_axis.truncate().as_dvec3());
     playback::stop_at(workspace, time);
     let line = workspace.tools.controls_mut().line_mut();
     line.set_pivot(pivot.unwrap_or_default());
-    line.choose(Some(LineUse::Pose));
-    workspace.say(
-        MessageSeverity::Info,
-        "Draw the line along which the selected bones lie, or with Alt the path of their end over time; click corners and end with Enter, or press Esc to stop",
-    );
+    line.choose(Some(use_of));
+    workspace.say(MessageSeverity::Info, hint);
 }
 
 /// Lays the selected bones along a stroke.

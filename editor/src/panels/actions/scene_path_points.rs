@@ -6,7 +6,7 @@ use super::scene_points::open_scene;
 use super::scene_text::step;
 use crate::control::path_point::{PathPoint, PathPointOwner};
 use crate::panels::request::Effect;
-use crate::panels::scene::{ChangedThings, line_named};
+use crate::panels::scene::{ChangedThings, line_named, nearest_on_piece};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
@@ -209,10 +209,7 @@ fn nearest(view: &GizmoView, at: DVec2, places: impl Iterator<Item = DVec3>) -> 
     for (index, place) in places.enumerate() {
         let place = view.to_screen(place);
         if let Some((from, to)) = before.zip(place) {
-            let along: DVec2 = to - from;
-            let square = along.length_squared();
-            let share = if square > 0.0 { ((at - from).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-            let distance = at.distance(from + along * share);
+            let (distance, share) = nearest_on_piece(at, [from, to]);
             if found.is_none_or(|(least, _)| distance < least) {
                 found = Some((distance, index as f64 - 1.0 + share));
             }

@@ -125,9 +125,14 @@ fn distance(one: [DVec2; 2], other: [DVec2; 2]) -> f64 {
     ends.fold(f64::INFINITY, f64::min)
 }
 
-fn to_piece(at: DVec2, [from, to]: [DVec2; 2]) -> f64 {
+fn to_piece(at: DVec2, piece: [DVec2; 2]) -> f64 {
+    nearest_on_piece(at, piece).0
+}
+
+/// Returns the distance of a position from a straight piece, and the share of the piece, from 0 to 1, at which it is nearest.
+pub(in crate::panels) fn nearest_on_piece(at: DVec2, [from, to]: [DVec2; 2]) -> (f64, f64) {
     let along = to - from;
     let square = along.length_squared();
     let share = if square > 0.0 { ((at - from).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
-    at.distance(from + along * share)
+    (at.distance(from + along * share), share)
 }

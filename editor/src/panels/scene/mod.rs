@@ -52,6 +52,7 @@ pub(in crate::panels) use gesture_request::move_label;
 pub use left_scene::LeftScene;
 pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;
+pub(in crate::panels) use line_eraser::nearest_on_piece;
 pub use new_thing::{
     NewModel, NewThing, begin_text, new_thing_splices, with_new_sound, with_new_thing, with_run,
 };

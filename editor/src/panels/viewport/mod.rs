@@ -11,6 +11,7 @@ mod second;
 mod toolbar;
 mod tools;
 
+use super::bone_menu;
 use super::context::PanelContext;
 use super::request::Request;
 use super::scene::{SceneRequest, active_request};
@@ -20,7 +21,7 @@ use super::{Panel, PanelPlace, PanelSubject, widgets};
 use dragonfly_picture::ThroughCamera;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, FontId, Popup, Pos2, Rect, Response, Sense, SetOpenCommand, Ui, WidgetInfo, pos2};
+use egui::{Color32, FontId, Pos2, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 use std::borrow::Cow;
 
 /// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::ViewportTools`])
@@ -55,7 +56,7 @@ impl Panel for Viewport {
             edit_model(&response, context, requests);
             thing_menu(&response, context, requests);
         } else if context.view.is_some() {
-            super::bone_menu::show(&response, context, context.pointed, requests);
+            bone_menu::show(&response, context, context.pointed, requests);
         }
         let mut shields = Vec::new();
         if context.view.is_some() {
@@ -138,20 +139,13 @@ fn edit_model(response: &Response, context: &PanelContext<'_>, requests: &mut Ve
     }
 }
 
-/// Opens the menu of a thing of the scene where the right button was clicked. A thing there that is not selected is selected first. While the left
-/// button is down, the right one only cancels a drag.
+/// Opens the menu of a thing of the scene where the right button was clicked. A thing there that is not selected is selected first.
 fn thing_menu(response: &Response, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let open = response.secondary_clicked() && !response.ctx.input(|input| input.pointer.primary_down());
+    let open = bone_menu::is_asked(response);
     if let Some(thing) = context.stage.hovered().filter(|_| open) {
         requests.push(Request::Scene(active_request(context, thing)));
     }
-    let command = match () {
-        () if open => Some(SetOpenCommand::Bool(true)),
-        () if response.clicked() => Some(SetOpenCommand::Bool(false)),
-        () => None,
-    };
-    let menu = Popup::menu(response).open_memory(command).at_pointer_fixed();
-    menu.show(|ui| super::scene::thing_menu(ui, context, requests));
+    bone_menu::at_pointer(response, open, |ui| super::scene::thing_menu(ui, context, requests));
 }
 
 /// Draws a name on one line, with the whole name as tooltip if it is truncated. Returns its lower edge.
