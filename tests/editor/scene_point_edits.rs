@@ -69,6 +69,31 @@ fn ctrl_and_a_click_on_the_selected_path_add_a_point_there_and_delete_removes_it
     }
 }
 
+fn is_any_point_selected(window: &Window) -> bool {
+    let read = window.state().state.read();
+    let lines = read.scene_editing.lines();
+    lines.points().iter().any(|point| lines.is_point_selected(point))
+}
+
+#[test]
+fn undo_of_a_point_that_was_added_selects_no_other_point_in_its_place() {
+    let mut window = scene(FOXES).window();
+    select(&mut window, "aisle");
+    let path = StagePath::new(&AISLE, true);
+    click(&mut window, path.at(path.length() * 0.25).position, true);
+    window.run_steps(2);
+    assert!(is_any_point_selected(&window), "the new point");
+    window.state_mut().change(Change::Undo);
+    window.run_steps(2);
+    assert!(!is_any_point_selected(&window), "the second point has its number");
+    click(&mut window, AISLE[1], false);
+    window.run_steps(2);
+    assert!(is_any_point_selected(&window));
+    window.state_mut().change(Change::Redo);
+    window.run_steps(2);
+    assert!(!is_any_point_selected(&window), "the new point has its number");
+}
+
 #[test]
 fn delete_removes_the_point_that_was_clicked_but_leaves_two_and_the_path_after_it_is_selected_again() {
     let mut window = scene(FOXES).window();

@@ -4,8 +4,11 @@ use crate::scene_bench::{FOXES, scene};
 use crate::scene_lines::{run, send};
 use crate::workbench::{Window, drag};
 use dragonfly::control::{Button, InputEvent, Modifiers as Held};
-use dragonfly::panels::Effect;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::{Effect, Request};
+use dragonfly_document::View;
+use dragonfly_document::bones::Choice;
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::camera::Camera;
@@ -167,4 +170,33 @@ fn a_drag_stays_in_its_view_and_one_view_alone_is_the_first_one() {
     let (whole, none) = places(&window);
     assert!(none.is_none() && whole.left() == left.left() && whole.right() == right.right());
     assert_eq!(active(&window), (moved, ThroughCamera::Free));
+}
+
+#[test]
+fn a_second_view_keeps_its_camera_while_a_model_of_the_scene_is_edited_and_begins_anew_in_another_scene() {
+    let (mut window, [left, right]) = both();
+    point(&mut window, right.center());
+    orbit(&mut window, right.center(), 60.0);
+    let of_second = active(&window).0;
+    let scene_view = window.state().state.read().view.expect("a scene").clone();
+    window.state_mut().state.show(fixture::full());
+    window.run_steps(3);
+    window.state_mut().state.show(scene_view);
+    window.run_steps(3);
+    let (_, right) = places(&window);
+    point(&mut window, right.expect("a second view").center());
+    assert_eq!(active(&window), (of_second, ThroughCamera::Free));
+    // Through a camera that another scene does not have.
+    let close = SceneRequest::SelectThings(vec!["close".into()], Choice::Replace);
+    window.state_mut().state.execute(Request::Scene(close));
+    run(&mut window, Id::LookThroughSelected);
+    assert_eq!(active(&window).1, ThroughCamera::Of("close".into()));
+    point(&mut window, left.center());
+    let other = scene(&FOXES.replace("close", "near")).state.read().view.expect("a scene").clone();
+    window.state_mut().state.show(View { file: fixture::full().file, ..other });
+    window.run_steps(3);
+    assert_eq!(*window.state().state.read().other_through, ThroughCamera::Shot);
+    let second = places(&window).1.expect("a second view");
+    point(&mut window, second.center());
+    assert!(window.state().state.read().is_second_active, "it is worked in");
 }

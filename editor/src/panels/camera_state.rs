@@ -22,7 +22,8 @@ pub(super) struct CameraState {
     viewport: Rect,
     /// The rectangle of the other one of two views of a scene, points; `None` while there is one view. Viewport and cameras are those of the active view.
     second: Option<Rect>,
-    other: OtherView,
+    /// The view that is not active; `None` while it was never shown.
+    other: Option<OtherView>,
     /// Whether the active one of two views is the second one.
     is_second_active: bool,
     /// Toolbars and cards over the viewport, points.
@@ -31,7 +32,7 @@ pub(super) struct CameraState {
 
 /// The view of a scene that is not active.
 #[derive(Clone, Debug)]
-struct OtherView {
+pub(super) struct OtherView {
     camera: Camera,
     through: ThroughCamera,
     is_attached: bool,
@@ -47,7 +48,7 @@ impl Default for CameraState {
             moved: None,
             viewport: Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
             second: None,
-            other: OtherView { camera: Camera::default(), through: ThroughCamera::Shot, is_attached: false },
+            other: None,
             is_second_active: false,
             shields: Vec::new(),
         }
@@ -145,11 +146,22 @@ impl CameraState {
     pub(super) fn set_second(&mut self, second: Option<Rect>) {
         if second.is_none() {
             self.activate(false);
-        } else if self.second.is_none() {
-            self.other =
-                OtherView { camera: *self.camera(), through: ThroughCamera::Shot, is_attached: false };
+            self.other = None;
+        } else if self.other.is_none() {
+            let camera = *self.camera();
+            self.other = Some(OtherView { camera, through: ThroughCamera::Shot, is_attached: false });
         }
         self.second = second;
+    }
+
+    /// Returns the view that is not active; `None` while it was never shown.
+    pub(super) fn other(&self) -> Option<&OtherView> {
+        self.other.as_ref()
+    }
+
+    /// Sets what the view looks at that is not active; `None` lets it begin anew the next time it is shown.
+    pub(super) fn set_other(&mut self, other: Option<OtherView>) {
+        self.other = other;
     }
 
     /// Returns whether the active one of two views is the second one.
@@ -159,11 +171,14 @@ impl CameraState {
 
     /// Makes the first or the second view the active one, with its camera. Returns whether it was the other one.
     pub(super) fn activate(&mut self, second: bool) -> bool {
+        let Self { camera, through, is_attached, other: Some(other), viewport, second: place, .. } = self
+        else {
+            return false;
+        };
         if self.is_second_active == second {
             return false;
         }
         self.is_second_active = second;
-        let Self { camera, through, is_attached, other, viewport, second: place, .. } = self;
         std::mem::swap(camera, &mut other.camera);
         std::mem::swap(through, &mut other.through);
         std::mem::swap(is_attached, &mut other.is_attached);
@@ -176,17 +191,19 @@ impl CameraState {
 
     /// Returns the free camera of the view that is not active.
     pub(super) fn other_camera(&self) -> &Camera {
-        &self.other.camera
+        self.other.as_ref().map_or(&self.camera, |other| &other.camera)
     }
 
     /// Returns the camera of a scene through which the view looks that is not active.
     pub(super) fn other_through(&self) -> &ThroughCamera {
-        &self.other.through
+        self.other.as_ref().map_or(&ThroughCamera::Shot, |other| &other.through)
     }
 
     /// Sets the camera of a scene through which the view looks that is not active.
     pub(super) fn set_other_through(&mut self, through: ThroughCamera) {
-        self.other.through = through;
+        if let Some(other) = &mut self.other {
+            other.through = through;
+        }
     }
 
     /// Returns the rectangles over the viewport, points.

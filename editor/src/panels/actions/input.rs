@@ -96,7 +96,7 @@ fn take_tool_outcome(workspace: &mut Workspace, outcome: ToolOutcome, effects: &
             }
         }
         ToolOutcome::SelectPoint(point) => {
-            workspace.scene.lines_mut().select_point(Some((point.owner, point.index)));
+            workspace.scene.lines_mut().select_point(point.owner, point.index);
         }
         ToolOutcome::MovePoint(point) => scene_points::send(workspace, &point, effects),
         ToolOutcome::Line(answer) => effects.extend(scene_lines::answered(workspace, answer)),

@@ -16,6 +16,7 @@ pub(super) fn leave(workspace: &Workspace) -> Option<LeftScene> {
         is_playing: workspace.player.is_playing(),
         camera: workspace.stage.is_framed().then(|| *workspace.camera.free()),
         through: workspace.camera.through().clone(),
+        other: workspace.camera.other().cloned(),
     })
 }
 
@@ -34,6 +35,7 @@ pub(super) fn restore(left: LeftScene, workspace: &mut Workspace) {
         workspace.camera.set_free(camera);
     }
     workspace.camera.set_through(left.through);
+    workspace.camera.set_other(left.other);
     keys::set_range(workspace, left.range);
     let (start, length) = workspace.read().scene_bounds().unwrap_or((0.0, f32::MAX));
     playback::seek(workspace, between(left.time, start, start + length));

@@ -80,6 +80,12 @@ pub(super) fn update(workspace: &mut Workspace) {
         workspace.camera.set_through(ThroughCamera::Free);
     }
     workspace.camera.set_seen(camera);
+    if let ThroughCamera::Of(id) = workspace.camera.other_through()
+        && let Some(plan) = workspace.read().scene().and_then(|scene| scene.plan.as_ref())
+        && plan.thing_called(id).is_none()
+    {
+        workspace.camera.set_other_through(ThroughCamera::Free);
+    }
 }
 
 /// Returns the camera of the scene through which the viewport looks, and the ratio of width to height of the image; `None` for the free one.

@@ -52,23 +52,23 @@ pub(super) fn is_add(workspace: &Workspace) -> bool {
 /// Adds a point to the selected path or line under the pointer, and selects it. Returns whether there is one.
 pub(super) fn add(workspace: &mut Workspace, effects: &mut Vec<Effect>) -> bool {
     let Some(point) = point_under_pointer(workspace) else { return false };
-    let (effect, added) = match point {
+    let (effect, (owner, index, more)) = match point {
         NewPoint::OnPath(path, index, place) => {
             let effect = step(workspace, |base| {
                 let splices = add_path_point_splices(&base.script, &path, index, place)?;
                 base.spliced(&splices, ScriptLabel::AddPoint, None, ChangedThings::Thing(&path))
             });
-            (effect, (PathPointOwner::Path(path), index))
+            (effect, (PathPointOwner::Path(path), index, 1))
         }
         NewPoint::OnLine(line, curve, share) => {
             let effect = reshape(workspace, ScriptLabel::AddPoint, &line, |control| {
                 with_line_point(control, curve, share)
             });
-            (effect, (PathPointOwner::Line(line), 3 * curve + 3))
+            (effect, (PathPointOwner::Line(line), 3 * curve + 3, 3))
         }
     };
     if effect.is_some() {
-        workspace.scene.lines_mut().select_point(Some(added));
+        workspace.scene.lines_mut().select_added_point(owner, index, more);
     }
     effects.extend(effect);
     true
@@ -104,7 +104,7 @@ pub(super) fn remove(workspace: &mut Workspace) -> Option<Effect> {
         }
     };
     if effect.is_some() {
-        workspace.scene.lines_mut().select_point(None);
+        workspace.scene.lines_mut().deselect_point();
     }
     effect
 }

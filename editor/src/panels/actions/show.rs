@@ -64,6 +64,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         workspace.probe.clear();
         workspace.tools.controls_mut().line_mut().choose(None);
         workspace.camera.set_through(ThroughCamera::Free);
+        workspace.camera.set_second(None);
         workspace.model.replace(view);
         workspace.selections.open(done);
         workspace.trail.clear();

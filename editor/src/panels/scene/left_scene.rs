@@ -1,6 +1,7 @@
 //! A scene that was left.
 
 use super::SceneEditing;
+use crate::panels::camera_state::OtherView;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::camera::Camera;
 use std::path::PathBuf;
@@ -22,4 +23,6 @@ pub struct LeftScene {
     pub camera: Option<Camera>,
     /// The camera through which the viewport looked.
     pub through: ThroughCamera,
+    /// The other one of two views; `None` while there was one.
+    pub(in crate::panels) other: Option<OtherView>,
 }

@@ -18,8 +18,7 @@ use std::sync::Arc;
 pub struct LineEditing {
     /// Names of the selected lines, the active one last.
     selected: ThingSelection,
-    /// The point that was pressed last: what it belongs to, and its number there.
-    point: Option<(PathPointOwner, usize)>,
+    point: Option<SelectedPoint>,
     hidden: BTreeSet<Box<str>>,
     /// The line of which the list is asked to let its name be typed.
     renaming: Option<Box<str>>,
@@ -35,6 +34,18 @@ pub struct LineEditing {
     lines: (Option<LinesBase>, Vec<LineLook>),
     /// The movement of the eraser in progress.
     eraser: Option<LineEraser>,
+}
+
+/// The point of a path or a line that was pressed or added last.
+#[derive(Clone, Debug)]
+struct SelectedPoint {
+    owner: PathPointOwner,
+    /// Its number there.
+    index: usize,
+    /// How many points the owner has with it. With another count, for example after undo, the number is that of another point.
+    count: usize,
+    /// Whether the owner has been seen with that count: a point that was just added comes with the next view of the document.
+    is_there: bool,
 }
 
 /// The things that are selected, hidden and locked, by their ids.
@@ -137,12 +148,38 @@ impl LineEditing {
 
     /// Returns whether a point of a path or a line is selected.
     pub fn is_point_selected(&self, point: &PathPoint) -> bool {
-        self.point.as_ref().is_some_and(|(owner, index)| (owner, *index) == (&point.owner, point.index))
+        let selected = self.point.as_ref().filter(|selected| selected.is_there);
+        selected.is_some_and(|own| (&own.owner, own.index) == (&point.owner, point.index))
     }
 
-    /// Selects a point of a path or a line, or none.
-    pub(in crate::panels) fn select_point(&mut self, point: Option<(PathPointOwner, usize)>) {
-        self.point = point;
+    /// Selects a point of a path or a line that is shown.
+    pub(in crate::panels) fn select_point(&mut self, owner: PathPointOwner, index: usize) {
+        let count = self.count_of(&owner);
+        self.point = Some(SelectedPoint { owner, index, count, is_there: true });
+    }
+
+    /// Selects the point `index` that is being added to a path or a line, together with `more` points in all.
+    pub(in crate::panels) fn select_added_point(&mut self, owner: PathPointOwner, index: usize, more: usize) {
+        let count = self.count_of(&owner) + more;
+        self.point = Some(SelectedPoint { owner, index, count, is_there: false });
+    }
+
+    pub(in crate::panels) fn deselect_point(&mut self) {
+        self.point = None;
+    }
+
+    fn count_of(&self, owner: &PathPointOwner) -> usize {
+        self.points.iter().filter(|point| point.owner == *owner).count()
+    }
+
+    /// Deselects the point if what it belongs to has other points now.
+    fn follow_point(&mut self) {
+        let Some(mut point) = self.point.take() else { return };
+        let is_same = self.count_of(&point.owner) == point.count;
+        if is_same || !point.is_there {
+            point.is_there |= is_same;
+            self.point = Some(point);
+        }
     }
 
     /// Returns whether a line is hidden.
@@ -238,6 +275,7 @@ impl LineEditing {
         let paths = things.selected.iter().map(|id| &**id).filter(editable);
         let line = self.selected().filter(|line| !self.is_hidden(line));
         self.points = path_handles(script, scene.and_then(|scene| scene.lines.as_deref()), paths, line, of);
+        self.follow_point();
         if same_paths && same_lines {
             return;
         }
