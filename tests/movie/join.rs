@@ -6,8 +6,11 @@ use dragonfly_kit::counting::peak;
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mutate::Mutator;
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
 use dragonfly_movie::{GROUP, MovieSettings, MovieTarget, join_movies, movie_parts};
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const SIZE: [u32; 2] = [48, 32];
 
@@ -25,9 +28,9 @@ fn parts(folder: &Folder, count: u64, length: u64, settings: &MovieSettings) -> 
     movie_parts(count, length).into_iter().map(write).collect()
 }
 
-fn join(parts: &[PathBuf], folder: &Folder) -> Result<Vec<u8>, String> {
+fn join(parts: &[PathBuf], count: u64, folder: &Folder) -> Result<Vec<u8>, String> {
     let path = folder.join("joined.mp4");
-    join_movies(parts, MovieTarget::path(&path), None).map_err(|error| error.to_string())?;
+    join_movies(parts, 0..count, MovieTarget::path(&path), None).map_err(|error| error.to_string())?;
     Ok(std::fs::read(path).unwrap())
 }
 
@@ -70,7 +73,7 @@ fn parts_of_random_lengths_are_joined_in_any_order_to_the_bytes_of_one_pass() {
             paths.insert(random.below(paths.len() + 1), path);
             first += length;
         }
-        let joined = join(&paths, &folder).unwrap();
+        let joined = join(&paths, count, &folder).unwrap();
         assert!(
             joined == wanted,
             "seed {seed}, round {round}: {} parts of {count} frames differ",
@@ -86,10 +89,10 @@ fn parts_of_random_lengths_are_joined_in_any_order_to_the_bytes_of_one_pass() {
 fn a_joined_part_is_joined_again() {
     let folder = Folder::new("join-again");
     let all = parts(&folder, 5 * GROUP, GROUP, &settings());
-    let wanted = join(&all, &folder).unwrap();
+    let wanted = join(&all, 5 * GROUP, &folder).unwrap();
     let middle = folder.join("middle.mp4");
-    join_movies(&all[1..4], MovieTarget::path(&middle), None).unwrap();
-    let joined = join(&[all[4].clone(), middle, all[0].clone()], &folder).unwrap();
+    join_movies(&all[1..4], GROUP..4 * GROUP, MovieTarget::path(&middle), None).unwrap();
+    let joined = join(&[all[4].clone(), middle, all[0].clone()], 5 * GROUP, &folder).unwrap();
     assert!(joined == wanted);
 }
 
@@ -115,6 +118,22 @@ fn parts_that_do_not_belong_together_are_refused_by_name() {
         ),
         (vec![all[1].clone(), short], "part 48.mp4: it begins at frame 48, and the frames from 5 on"),
         (
+            vec![all[1].clone(), all[2].clone()],
+            "part 48.mp4: it begins at frame 48, and the frames from 0 on are missing",
+        ),
+        (
+            vec![all[0].clone(), all[1].clone()],
+            "part 48.mp4: it ends before frame 96, and the frames from there",
+        ),
+        (
+            vec![
+                all[0].clone(),
+                all[1].clone(),
+                other("long.mp4", MovieSettings { first: 2 * GROUP, ..settings() }, GROUP),
+            ],
+            "long.mp4: it goes on after the end of the movie, which has 139 frames",
+        ),
+        (
             vec![all[0].clone(), other("tag.mp4", MovieSettings { tag: String::new(), ..second.clone() }, 5)],
             "tag.mp4: it is a part of another movie",
         ),
@@ -134,7 +153,7 @@ fn parts_that_do_not_belong_together_are_refused_by_name() {
         (vec![], "no frames"),
     ];
     for (parts, words) in cases {
-        let error = join(&parts, &folder).unwrap_err();
+        let error = join(&parts, 3 * GROUP - 5, &folder).unwrap_err();
         assert!(error.contains(words), "{error}");
         assert!(!folder.join("joined.mp4").exists(), "{words}");
     }
@@ -151,7 +170,7 @@ fn a_damaged_part_is_an_error_or_a_movie() {
     let mut joined = 0;
     for number in 0..1_500 {
         std::fs::write(&all[0], mutator.mutant(&first)).unwrap();
-        match join(&all, &folder) {
+        match join(&all, GROUP + 3, &folder) {
             Ok(_) => joined += 1,
             Err(error) => assert!(
                 error.contains("part 0.mp4") || error.contains("part 48.mp4"),
@@ -178,9 +197,61 @@ fn a_part_whose_tables_claim_large_frames_is_refused_without_the_memory_for_them
         damaged[table + 16..table + 20].copy_from_slice(&size.to_be_bytes());
         std::fs::write(&all[0], damaged).unwrap();
         std::fs::OpenOptions::new().write(true).open(&all[0]).unwrap().set_len(length).unwrap();
-        let (memory, joined) = peak(|| join(&all, &folder));
+        let (memory, joined) = peak(|| join(&all, 2 * GROUP, &folder));
         let error = joined.unwrap_err();
         assert!(error.contains(words), "{error}");
         assert!(memory < 8 << 20, "{memory} bytes for a frame of {size}");
     }
+}
+
+/// Returns how many files of a folder this process has open.
+#[cfg(target_os = "linux")]
+fn open_files(folder: &std::path::Path) -> usize {
+    let links = std::fs::read_dir("/proc/self/fd").unwrap().flatten();
+    links
+        .filter_map(|link| std::fs::read_link(link.path()).ok())
+        .filter(|path| path.starts_with(folder))
+        .count()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn many_parts_are_joined_with_one_of_them_open_at_a_time() {
+    let folder = Folder::new("join-many");
+    let all = parts(&folder, 12 * GROUP, GROUP, &settings());
+    let join = |files: FaultyFiles| {
+        let target = MovieTarget::Path { files: Arc::new(files), path: folder.join("joined.mp4") };
+        join_movies(&all, 0..12 * GROUP, target, None).unwrap();
+    };
+    let files = FaultyFiles::once(u64::MAX, Fault::Io);
+    join(files.clone());
+    let most = Arc::new(AtomicUsize::new(0));
+    for call in (1..=files.calls()).step_by(7) {
+        let (most, place) = (Arc::clone(&most), folder.path().canonicalize().unwrap());
+        join(FaultyFiles::meddling(call, move || {
+            most.fetch_max(open_files(&place), Ordering::Relaxed);
+        }));
+    }
+    // A part, and the movie that grows.
+    assert_eq!(most.load(Ordering::Relaxed), 2);
+}
+
+#[test]
+fn a_part_that_claims_more_frames_than_it_has_bytes_is_refused() {
+    let folder = Folder::new("join-claims");
+    let all = parts(&folder, 2 * GROUP, GROUP, &settings());
+    let mut bytes = std::fs::read(&all[0]).unwrap();
+    let at = |kind: &[u8]| bytes.windows(4).position(|found| found == kind).unwrap();
+    let (sizes, durations, chunks) = (at(b"stsz"), at(b"stts"), at(b"stsc"));
+    let many = 4_000_000_000_u32.to_be_bytes();
+    // All of the same size, so that there is no table of sizes; and all in one chunk.
+    bytes[sizes + 8..sizes + 12].copy_from_slice(&1_u32.to_be_bytes());
+    bytes[sizes + 12..sizes + 16].copy_from_slice(&many);
+    bytes[durations + 12..durations + 16].copy_from_slice(&many);
+    bytes[chunks + 16..chunks + 20].copy_from_slice(&many);
+    std::fs::write(&all[0], bytes).unwrap();
+    let (memory, joined) = peak(|| join(&all, 2 * GROUP, &folder));
+    let error = joined.unwrap_err();
+    assert!(error.contains("part 0.mp4"), "{error}");
+    assert!(memory < 8 << 20, "{memory} bytes: {error}");
 }

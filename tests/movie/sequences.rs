@@ -1,11 +1,13 @@
 //! A file for each frame: PNG and EXR.
 
-use crate::frames::{disc, rate, write_disc};
+use crate::frames::{disc, rate, write, write_disc};
 use crate::judge::{decode, ffmpeg};
 use dragonfly_kit::folder::Folder;
-use dragonfly_movie::{Movie, MovieFrame, MovieSettings, MovieTarget, movie_format};
+use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
+use dragonfly_movie::{MOVIE_FORMATS, Movie, MovieFrame, MovieSettings, MovieTarget, movie_format};
 use exr::prelude::{f16, read_first_rgba_layer_from_file};
 use std::path::Path;
+use std::sync::Arc;
 
 const SIZE: [u32; 2] = [33, 18];
 
@@ -79,5 +81,40 @@ fn an_exr_file_is_the_linear_light_of_each_frame_with_its_alpha() {
         let found = decode(&folder.join("f.0001.exr"), "gbrapf32le", count * 4);
         let green = f32::from_le_bytes(*found[0].first_chunk().unwrap());
         assert!((green - 0.2525).abs() < 1e-3, "{green}");
+    }
+}
+
+#[test]
+fn the_folder_of_a_sequence_is_read_once_and_not_for_each_frame() {
+    let folder = Folder::new("sequence-list");
+    let files = FaultyFiles::once(u64::MAX, Fault::Io);
+    let path = folder.join("it.####.png");
+    let target = MovieTarget::Path { files: Arc::new(files.clone()), path };
+    write(
+        "png",
+        &MovieSettings::new([8, 8], rate("24")),
+        target,
+        (0..9).map(|number| disc([8, 8], number, true)),
+    )
+    .unwrap();
+    assert_eq!(files.names().iter().filter(|name| **name == "list").count(), 1);
+}
+
+#[test]
+fn a_movie_goes_to_another_thread() {
+    fn sent<T: Send>(it: T) -> T {
+        it
+    }
+    let folder = Folder::new("movie-thread");
+    for format in MOVIE_FORMATS {
+        let path = folder.join(&format!("it.{}", format.extensions[0]));
+        let movie =
+            Movie::begin(format, &MovieSettings::new([8, 8], rate("24")), MovieTarget::path(path)).unwrap();
+        let mut movie = sent(movie);
+        let written = std::thread::spawn(move || {
+            movie.frame(MovieFrame::srgb([8, 8], &disc([8, 8], 0, true)))?;
+            movie.end()
+        });
+        assert_eq!(written.join().unwrap().unwrap().frames, 1, "{}", format.name);
     }
 }

@@ -4,11 +4,13 @@ use crate::frames::{disc, rate};
 use crate::judge::{ffmpeg, probe, samples};
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::{Random, seed};
+use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
 use dragonfly_movie::{
     GROUP, MOVIE_FORMATS, Movie, MovieFrame, MovieSettings, MovieSound, MovieTarget, ReadSamples,
     join_movies, movie_format,
 };
 use std::path::Path;
+use std::sync::Arc;
 
 const SIZE: [u32; 2] = [32, 32];
 
@@ -111,10 +113,10 @@ fn parts_are_joined_with_the_sound_of_the_whole_movie() {
         crate::frames::write_disc("mp4", &settings, &path, count, false);
         parts.push(path);
     }
-    join_movies(&parts, MovieTarget::path(&joined), Some(sound())).unwrap();
+    join_movies(&parts, 0..count, MovieTarget::path(&joined), Some(sound())).unwrap();
     assert!(std::fs::read(&one).unwrap() == std::fs::read(&joined).unwrap());
     // Sound in a part would be lost or repeated.
-    let error = join_movies(&[joined], MovieTarget::path(&one), None).unwrap_err().to_string();
+    let error = join_movies(&[joined], 0..count, MovieTarget::path(&one), None).unwrap_err().to_string();
     assert!(error.contains("it has sound"), "{error}");
 }
 
@@ -157,4 +159,68 @@ fn a_tone_needs_less_than_half_of_its_samples_and_silence_hardly_anything() {
     let samples = 96_000 * 4;
     assert!(loud - none < samples / 2, "{} bytes of {samples}", loud - none);
     assert!(silent - none < 2_000, "{}", silent - none);
+}
+
+/// Begins a movie with sound on a disk that is full for the calls `from..=to`. Returns it with the number of frames that were written.
+fn on_full_disk(path: &Path, given: &[f32], [from, to]: [u64; 2]) -> Option<(Movie, u64)> {
+    let sound = MovieSound::samples(48_000, 2, blocks(given, 2)).unwrap();
+    let files = FaultyFiles::between(from, to, Fault::Full);
+    let target = MovieTarget::Path { files: Arc::new(files), path: path.to_path_buf() };
+    let settings = MovieSettings { coarseness: 10, ..MovieSettings::new(SIZE, rate("24000/1001")) };
+    let mut movie = Movie::begin_with_sound(movie_format("mp4").unwrap(), &settings, target, sound).ok()?;
+    let mut count = 0;
+    while count < 5 * GROUP && movie.frame(MovieFrame::srgb(SIZE, &disc(SIZE, count, false))).is_ok() {
+        count += 1;
+    }
+    Some((movie, count))
+}
+
+#[test]
+fn after_a_packet_that_could_not_be_written_the_sound_goes_on_with_that_packet() {
+    let folder = Folder::new("sound-full");
+    let given = any_sound(2 * 700_000, &mut Random::new(11));
+    let mut interrupted = 0;
+    for call in 1..60 {
+        let path = folder.join("it.mp4");
+        let Some((movie, count)) = on_full_disk(&path, &given, [call, call]) else { continue };
+        if count == 0 || movie.end().is_err() || count == 5 * GROUP {
+            continue;
+        }
+        interrupted += 1;
+        if !ffmpeg() {
+            continue;
+        }
+        let found = samples(&path);
+        assert!(!found.is_empty() && found == levels(&given)[..found.len()], "call {call}: other samples");
+    }
+    assert!(interrupted > 3, "{interrupted} movies were interrupted");
+}
+
+#[test]
+fn a_sound_that_cannot_be_read_to_its_end_costs_no_picture() {
+    let folder = Folder::new("sound-broken");
+    let path = folder.join("it.mp4");
+    let settings = MovieSettings::new(SIZE, rate("24"));
+    let silent: fn(u32) -> Result<bool, String> =
+        |calls| if calls < 2 { Ok(true) } else { Err("the file is damaged at byte 71".to_owned()) };
+    let endless: fn(u32) -> Result<bool, String> = |_| Ok(true);
+    for (answer, words) in [(silent, "damaged at byte 71"), (endless, "does not end")] {
+        let mut calls = 0;
+        let read: ReadSamples = Box::new(move |out| {
+            calls += 1;
+            out.extend([0.25; 9_600].iter().filter(|_| calls < 3));
+            answer(calls)
+        });
+        let sound = MovieSound::samples(48_000, 1, read).unwrap();
+        let target = MovieTarget::path(&path);
+        let mut movie =
+            Movie::begin_with_sound(movie_format("mp4").unwrap(), &settings, target, sound).unwrap();
+        for number in 0..2 * GROUP {
+            movie.frame(MovieFrame::srgb(SIZE, &disc(SIZE, number, false))).unwrap();
+        }
+        let report = movie.end().unwrap();
+        assert_eq!(report.frames, 2 * GROUP);
+        let [notice] = report.notices.as_slice() else { panic!("{:?}", report.notices) };
+        assert!(notice.starts_with("The sound ends at ") && notice.contains(words), "{notice}");
+    }
 }

@@ -7,6 +7,9 @@ use dragonfly_anim::stage::time::StageRate;
 /// Number of frames of a group: each begins with a frame that needs no other one, and parts of a movie are whole groups.
 pub const GROUP: u64 = 48;
 
+/// Largest number of a first frame: a million years.
+const LAST_FRAME: u64 = 1 << 50;
+
 /// Settings of a movie.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MovieSettings {
@@ -43,6 +46,12 @@ impl MovieSettings {
         }
         if !(10..=45).contains(&self.coarseness) {
             return wrong(format!("a coarseness of {}: from 10 to 45 are possible", self.coarseness));
+        }
+        if self.first > LAST_FRAME {
+            return wrong(format!(
+                "a movie that begins at frame {}: at most {LAST_FRAME} is possible",
+                self.first
+            ));
         }
         if self.tag.len() > 200 {
             return wrong(format!("a tag of {} bytes: at most 200 are possible", self.tag.len()));

@@ -131,6 +131,22 @@ impl SequenceName {
         Some(Self { folder, before: format!("{stem}."), digits: 4, after: extension.to_owned() })
     }
 
+    /// Returns the folder of the frames.
+    pub fn folder(&self) -> &Path {
+        match self.folder.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => &self.folder,
+        }
+    }
+
+    /// Returns whether the name of a file is that of a frame.
+    pub fn is_frame(&self, name: &str) -> bool {
+        let number = name.strip_prefix(&*self.before).and_then(|rest| rest.strip_suffix(&*self.after));
+        number.is_some_and(|number| {
+            number.len() >= self.digits.max(1) && number.bytes().all(|byte| byte.is_ascii_digit())
+        })
+    }
+
     /// Returns the path of a frame.
     pub fn frame(&self, number: u64) -> PathBuf {
         self.folder.join(format!("{}{number:0digits$}{}", self.before, self.after, digits = self.digits))
@@ -150,5 +166,13 @@ mod tests {
         assert_eq!(name("shot", 0), Path::new("shot.0000"));
         assert_eq!(name(".png", 0), Path::new(".png.0000"));
         assert_eq!(SequenceName::parse(Path::new("/")), None);
+    }
+
+    #[test]
+    fn names_of_frames_are_told_from_others() {
+        let name = SequenceName::parse(Path::new("out/f.###.png")).unwrap();
+        let found = ["f.007.png", "f.12345.png", "f.07.png", "f.0a7.png", "f..png", "g.007.png", "f.007.exr"]
+            .map(|file| name.is_frame(file));
+        assert_eq!(found, [true, true, false, false, false, false, false]);
     }
 }

@@ -34,7 +34,7 @@ pub struct MovieFormat {
 }
 
 /// A movie of one format in the middle of being written.
-pub(crate) trait MovieWriter {
+pub(crate) trait MovieWriter: Send {
     /// Writes the next frame, which has the size of the movie. After an error, [`Self::end`] still completes the movie with the frames before.
     fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError>;
 

@@ -46,7 +46,7 @@ pub use real::RealFiles;
 pub use record::{FileContents, LONGEST_RECORD};
 pub use recoverable::{DocumentFileState, JournalEntry, Readability, Recoverable};
 pub use recovery::{Claim, Resumed};
-pub use save::{SaveOptions, SaveOutcome, replace, save};
+pub use save::{SaveOptions, SaveOutcome, replace, save, save_one_of_many};
 pub use stamp::{FileStamp, FileState, hash};
 pub use successor::{Successor, SuccessorJournal};
 pub use target::ExpectedFile;

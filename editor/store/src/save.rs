@@ -54,6 +54,22 @@ pub fn save(
     bytes: &[u8],
     options: &SaveOptions<'_>,
 ) -> Result<SaveOutcome, FileSaveError> {
+    let saved = save_one_of_many(files, path, bytes, options)?;
+    remove_leftovers(files, &saved.path);
+    Ok(saved)
+}
+
+/// Saves as [`save`], but does not look for what killed programs left while saving the file, because that reads the whole folder: for many
+/// files in one folder [`remove_unfinished`](super::remove_unfinished) does so once.
+///
+/// # Errors
+/// As [`save`].
+pub fn save_one_of_many(
+    files: &dyn Vfs,
+    path: &Path,
+    bytes: &[u8],
+    options: &SaveOptions<'_>,
+) -> Result<SaveOutcome, FileSaveError> {
     let target = resolved(files, path)?;
     let old = regular(files, &target)?;
     if let Some(old) = &old {
@@ -76,7 +92,6 @@ pub fn save(
     } else {
         replace_file(files, &target, old.as_ref(), bytes, options.expected, &mut notices)?
     };
-    remove_leftovers(files, &target);
     Ok(SaveOutcome { path: target, stamp, links, kept, notices })
 }
 

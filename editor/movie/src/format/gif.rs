@@ -69,7 +69,10 @@ impl GifWriter {
             }
         }
         let ends = shown.iter().skip(1).copied().chain([count]);
-        let duration = |(frame, end): (&u64, u64)| (*frame, (start(end) - start(*frame)) as u16);
+        // The last frame may have less time left than viewers show; slow movies have more than the format can say.
+        let duration = |(frame, end): (&u64, u64)| {
+            (*frame, (start(end) - start(*frame)).clamp(SHORTEST, u64::from(u16::MAX)) as u16)
+        };
         shown.iter().zip(ends).map(duration).collect()
     }
 }

@@ -91,9 +91,7 @@ impl MovieWriter for Mp4Writer {
     }
 
     fn end(self: Box<Self>) -> Result<MovieReport, MovieError> {
-        let frames = self.file.frames();
-        let (path, bytes) = self.file.end()?;
-        Ok(MovieReport { frames, path: Some(path), bytes, notices: self.notices })
+        self.file.end(self.notices)
     }
 }
 

@@ -5,11 +5,11 @@ use crate::frame::MovieFrame;
 use crate::report::MovieReport;
 use crate::target::{MovieTarget, SequenceName};
 use crate::writer::MovieWriter;
-use dragonfly_store::{SaveOptions, Vfs, save};
+use dragonfly_store::{SaveOptions, Vfs, remove_unfinished, save_one_of_many};
 use std::sync::Arc;
 
 /// Encodes a frame into bytes; an error is a clause.
-type EncodeFrame = Box<dyn FnMut(MovieFrame<'_>, &mut Vec<u8>) -> Result<(), String>>;
+type EncodeFrame = Box<dyn FnMut(MovieFrame<'_>, &mut Vec<u8>) -> Result<(), String> + Send>;
 
 /// Writes each frame into a file.
 pub(super) struct FrameFiles {
@@ -30,6 +30,8 @@ impl FrameFiles {
         let reason = || format!("{} is not the name of a file", path.display());
         let name =
             SequenceName::parse(&path).ok_or_else(|| MovieError::Settings { format, reason: reason() })?;
+        // Once for all frames: to look for them, the whole folder is read.
+        remove_unfinished(&*files, name.folder(), &|file| name.is_frame(file));
         Ok(Self { files, name, encode, bytes: Vec::new(), report: MovieReport::default() })
     }
 }
@@ -37,7 +39,8 @@ impl FrameFiles {
 impl MovieWriter for FrameFiles {
     fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError> {
         (self.encode)(frame, &mut self.bytes).map_err(refused(number))?;
-        let saved = save(&*self.files, &self.name.frame(number), &self.bytes, &SaveOptions::default())?;
+        let path = self.name.frame(number);
+        let saved = save_one_of_many(&*self.files, &path, &self.bytes, &SaveOptions::default())?;
         self.report.frames += 1;
         self.report.bytes += self.bytes.len() as u64;
         self.report.path = Some(saved.path);

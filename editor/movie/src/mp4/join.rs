@@ -1,51 +1,67 @@
 //! Parts of a movie that were encoded apart, joined without encoding them again.
 
-use super::part::MoviePart;
+use super::part::{MoviePart, PartHead};
 use super::writer::{Mp4File, ticks};
 use crate::error::MovieError;
 use crate::report::MovieReport;
 use crate::sound::MovieSound;
 use crate::target::MovieTarget;
 use dragonfly_anim::stage::time::StageRate;
+use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
-/// Joins parts of an MP4, in any order, to the movie that one pass would have written, byte for byte; with the
-/// sound of the whole movie, if there is one: parts have none.
+/// Joins parts of an MP4, in any order, to the movie of `frames` that one pass would have written, byte for byte; with the
+/// sound of the whole movie, if there is one: parts have none. One part is open at a time.
 ///
 /// # Errors
-/// When the parts are no whole movie (a part is missing, twice there, or of another movie), or a file cannot be read or written. There is
+/// When the parts are not these frames (a part is missing, twice there, or of another movie), or a file cannot be read or written. There is
 /// no joined file then.
 pub fn join_movies(
     parts: &[PathBuf],
+    frames: Range<u64>,
     target: MovieTarget,
     sound: Option<MovieSound>,
 ) -> Result<MovieReport, MovieError> {
     let (files, path) = target.into_path("MP4")?;
-    let mut opened = Vec::new();
+    let mut heads = Vec::new();
     for part in parts {
-        opened.push(MoviePart::open(&*files, part)?);
+        heads.push(MoviePart::open(&*files, part)?.into_head());
     }
-    opened.sort_by_key(|part| part.label.first);
-    let Some(first) = opened.first() else { return Err(MovieError::Empty) };
+    heads.sort_by_key(|part| part.label.first);
+    let Some(first) = heads.first().filter(|_| !frames.is_empty()) else { return Err(MovieError::Empty) };
     let rate = StageRate::new(first.timescale.get(), first.delta)
         .filter(|rate| (first.timescale, first.delta) == ticks(*rate))
         .ok_or_else(|| first.wrong("it has no rate of a movie".to_owned()))?;
-    let mut next = first.label.first;
-    for part in &opened {
+    let (mut next, mut last) = (frames.start, first);
+    for part in &heads {
         check(part, first, next)?;
-        next += part.frames();
+        next = next.saturating_add(part.frames);
+        if next > frames.end {
+            return Err(
+                part.wrong(format!("it goes on after the end of the movie, which has {} frames", frames.end))
+            );
+        }
+        last = part;
     }
-    let mut joined = Mp4File::create(files, &path, first.label.clone(), rate, sound)?;
-    for part in &opened {
-        part.samples(|bytes, is_whole| joined.picture(bytes, is_whole, || Ok(part.entry.clone())))?;
+    if next < frames.end {
+        return Err(
+            last.wrong(format!("it ends before frame {next}, and the frames from there on are missing"))
+        );
     }
-    let frames = joined.frames();
-    let (path, bytes) = joined.end()?;
-    Ok(MovieReport { frames, path: Some(path), bytes, notices: Vec::new() })
+    let mut joined = Mp4File::create(Arc::clone(&files), &path, first.label.clone(), rate, sound)?;
+    for head in &heads {
+        let part = MoviePart::open(&*files, &head.path)?;
+        if !part.head().is_same(head) {
+            return Err(head.wrong("it was changed while the parts were joined".to_owned()));
+        }
+        part.samples(|bytes, is_whole| joined.picture(bytes, is_whole, || Ok(head.entry.clone())))?;
+    }
+    joined.end(Vec::new())
 }
 
 /// Returns an error unless a part fits to the first one and begins at frame `next`.
-fn check(part: &MoviePart, first: &MoviePart, next: u64) -> Result<(), MovieError> {
+fn check(part: &PartHead, first: &PartHead, next: u64) -> Result<(), MovieError> {
     let begins = part.label.first;
     let (label, wanted) = (&part.label, &first.label);
     let reason = if begins > next {

@@ -15,14 +15,35 @@ const LARGEST_TABLES: u64 = 256 << 20;
 /// Largest sample that is read, in bytes.
 const LARGEST_SAMPLE: u32 = 256 << 20;
 
-/// A part of a movie.
-pub(super) struct MoviePart {
-    path: PathBuf,
-    file: Box<dyn VfsFile>,
+/// What a part of a movie says about itself.
+pub(super) struct PartHead {
+    pub(super) path: PathBuf,
     pub(super) label: MovieLabel,
     pub(super) entry: SampleEntry,
     pub(super) timescale: NonZeroU32,
     pub(super) delta: u32,
+    /// Number of frames.
+    pub(super) frames: u64,
+}
+
+impl PartHead {
+    /// Returns an error about the part.
+    pub(super) fn wrong(&self, reason: String) -> MovieError {
+        MovieError::Part { path: self.path.clone(), reason }
+    }
+
+    /// Returns whether another one says the same.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        (&self.label, &self.entry, self.timescale, self.delta, self.frames)
+            == (&other.label, &other.entry, other.timescale, other.delta, other.frames)
+    }
+}
+
+/// A part of a movie, whose file is open.
+pub(super) struct MoviePart {
+    head: PartHead,
+    file: Box<dyn VfsFile>,
+    size: u64,
     table: SampleTableAccessor<StblBox>,
 }
 
@@ -52,17 +73,27 @@ impl MoviePart {
         let (entry, delta) = (entry.clone(), durations.sample_delta);
         let table = SampleTableAccessor::new(table)
             .map_err(|error| wrong(format!("its tables are damaged: {error}")))?;
-        Ok(Self { path: path.to_path_buf(), file, label, entry, timescale, delta, table })
+        let frames = u64::from(table.sample_count());
+        // Each frame has at least a byte: one that is claimed only is found before anything is copied.
+        if frames > size || label.first.checked_add(frames).is_none() {
+            return Err(wrong(format!("its tables claim {frames} frames in {size} bytes")));
+        }
+        let head = PartHead { path: path.to_path_buf(), label, entry, timescale, delta, frames };
+        Ok(Self { head, file, size, table })
     }
 
-    /// Returns an error about the part.
-    pub(super) fn wrong(&self, reason: String) -> MovieError {
-        MovieError::Part { path: self.path.clone(), reason }
+    /// Returns what the part says about itself.
+    pub(super) fn head(&self) -> &PartHead {
+        &self.head
     }
 
-    /// Returns the number of frames.
-    pub(super) fn frames(&self) -> u64 {
-        u64::from(self.table.sample_count())
+    /// Closes the file and returns what the part says about itself.
+    pub(super) fn into_head(self) -> PartHead {
+        self.head
+    }
+
+    fn wrong(&self, reason: String) -> MovieError {
+        self.head.wrong(reason)
     }
 
     /// Calls `add` with the bytes of each sample in order, and whether it needs no other sample.
@@ -71,9 +102,9 @@ impl MoviePart {
         mut add: impl FnMut(&[u8], bool) -> Result<(), MovieError>,
     ) -> Result<(), MovieError> {
         let mut bytes = Vec::new();
-        for (number, sample) in (self.label.first..).zip(self.table.samples()) {
+        for (number, sample) in (self.head.label.first..).zip(self.table.samples()) {
             let is_whole = sample.is_sync_sample();
-            if is_whole != number.is_multiple_of(self.label.group) {
+            if is_whole != number.is_multiple_of(self.head.label.group) {
                 return Err(self.wrong(format!("frame {number} begins no group, or one where none begins")));
             }
             let size = sample.data_size();
@@ -81,8 +112,7 @@ impl MoviePart {
                 return Err(self.wrong(format!("frame {number} has {size} bytes")));
             }
             let end = sample.data_offset().checked_add(u64::from(size));
-            let length = self.file.metadata().map_err(|error| self.wrong(error.to_string()))?.size;
-            if end.is_none_or(|end| end > length) {
+            if end.is_none_or(|end| end > self.size) {
                 return Err(self.wrong(format!("the file ends before frame {number}")));
             }
             bytes.resize(size as usize, 0);

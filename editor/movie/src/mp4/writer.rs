@@ -3,12 +3,13 @@
 use super::label::MovieLabel;
 use super::moov::{MovieTables, file_type};
 use crate::error::MovieError;
-use crate::sound::{LONGEST_PACKET, MovieSound, SoundPackets};
+use crate::report::MovieReport;
+use crate::sound::{LONGEST_PACKET, MovieSound, SoundPacket, SoundPackets};
 use dragonfly_anim::stage::time::StageRate;
 use dragonfly_store::{GrowingFile, Vfs};
 use shiguredo_mp4::boxes::SampleEntry;
 use std::num::NonZeroU32;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Header of the box of samples, with a size of 64 bits.
@@ -90,7 +91,39 @@ pub(super) fn ticks(rate: StageRate) -> (NonZeroU32, u32) {
 struct GrowingSound {
     packets: Box<dyn SoundPackets + Send>,
     table: TrackTable,
+    /// A packet that could not be written.
+    waiting: Option<SoundPacket>,
     is_over: bool,
+    /// Why the sound is over before its end.
+    error: Option<String>,
+}
+
+impl GrowingSound {
+    fn new(sound: MovieSound) -> Self {
+        let packets = sound.into_packets();
+        let table = TrackTable::new(TrackKind::Sound, packets.entry(), packets.timescale());
+        Self { packets, table, waiting: None, is_over: false, error: None }
+    }
+
+    /// Returns the next packet; `None` at the end, and where the sound cannot be read further: the pictures are worth more than the rest of it.
+    fn next(&mut self, most: u32) -> Option<SoundPacket> {
+        if self.is_over || self.waiting.is_some() {
+            return self.waiting.take();
+        }
+        let packet = self.packets.next(most).unwrap_or_else(|error| {
+            self.error = Some(error);
+            None
+        });
+        self.is_over = packet.is_none();
+        packet
+    }
+
+    /// Returns a sentence about a sound that could not be read to its end.
+    fn notice(&self) -> Option<String> {
+        let error = self.error.as_ref()?;
+        let seconds = self.table.duration() as f64 / f64::from(self.table.timescale.get());
+        Some(format!("The sound ends at {seconds:.2} s, because the rest could not be read: {error}"))
+    }
 }
 
 /// An MP4 that grows.
@@ -118,16 +151,12 @@ impl Mp4File {
         file.append(&file_type().map_err(unencoded)?)?;
         let start = file.size() + SAMPLES_HEADER;
         file.append(&samples_header(0))?;
-        let sound = sound.map(|sound| {
-            let packets = sound.into_packets();
-            let table = TrackTable::new(TrackKind::Sound, packets.entry(), packets.timescale());
-            GrowingSound { packets, table, is_over: false }
-        });
+        let sound = sound.map(GrowingSound::new);
         Ok(Self { file, label, rate, pictures: None, sound, start, end: start })
     }
 
     /// Returns the number of pictures.
-    pub(crate) fn frames(&self) -> u64 {
+    fn frames(&self) -> u64 {
         self.pictures.as_ref().map_or(0, |pictures| pictures.sizes.len() as u64)
     }
 
@@ -173,16 +202,16 @@ impl Mp4File {
         let until = pictures.duration_in(sound.table.timescale);
         let mut opens = true;
         let mut now = sound.table.duration();
-        while !sound.is_over && now < until {
+        while now < until {
             let left = u32::try_from(until - now).unwrap_or(u32::MAX);
             if !is_end && left < LONGEST_PACKET {
                 break;
             }
-            let Some(packet) = sound.packets.next(left).map_err(MovieError::Sound)? else {
-                sound.is_over = true;
-                break;
-            };
-            self.file.append(&packet.bytes)?;
+            let Some(packet) = sound.next(left) else { break };
+            if let Err(error) = self.file.append(&packet.bytes) {
+                sound.waiting = Some(packet);
+                return Err(error.into());
+            }
             let size = packet.bytes.len() as u32;
             sound.table.add(self.end - self.start, size, packet.duration, opens);
             self.end += u64::from(size);
@@ -192,8 +221,8 @@ impl Mp4File {
         Ok(())
     }
 
-    /// Writes the tables. Returns the path and size of the file.
-    pub(crate) fn end(mut self) -> Result<(PathBuf, u64), MovieError> {
+    /// Writes the tables. `notices` are those of the pictures.
+    pub(crate) fn end(mut self, mut notices: Vec<String>) -> Result<MovieReport, MovieError> {
         self.file.truncate(self.end)?;
         self.add_sound(true)?;
         let pictures = self.pictures.as_ref().filter(|table| !table.sizes.is_empty());
@@ -205,7 +234,10 @@ impl Mp4File {
         let header = self.start - SAMPLES_HEADER;
         self.file.overwrite(&samples_header(length), header)?;
         self.file.insert(&tables, header)?;
-        Ok(self.file.commit()?)
+        notices.extend(self.sound.as_ref().and_then(GrowingSound::notice));
+        let frames = self.frames();
+        let (path, bytes) = self.file.commit()?;
+        Ok(MovieReport { frames, path: Some(path), bytes, notices })
     }
 }
 

@@ -18,6 +18,8 @@ const ORDERS: usize = 4;
 const LARGEST_RICE: u32 = 14;
 /// Largest exponent of the number of partitions.
 const PARTITIONS: u32 = 6;
+/// Number of times in a row that a source may give no sample before its end.
+const MOST_IDLE: u32 = 1_000;
 /// Most channels, and most samples per second, that the format has.
 const MOST_CHANNELS: usize = 8;
 const HIGHEST_RATE: u32 = 655_350;
@@ -30,8 +32,9 @@ pub(super) struct FlacEncoder {
     rate: NonZeroU32,
     channels: usize,
     read: ReadSamples,
-    /// Samples that were read and not encoded, of all channels one after the other.
+    /// Samples that were read, of all channels one after the other, and how many of them are encoded.
     waiting: Vec<f32>,
+    encoded: usize,
     is_over: bool,
     block: u32,
 }
@@ -41,7 +44,7 @@ impl FlacEncoder {
         let rate = NonZeroU32::new(rate)
             .filter(|rate| rate.get() <= HIGHEST_RATE && (1..=MOST_CHANNELS).contains(&channels));
         let rate = rate.ok_or("from 1 to 8 channels with at most 655,350 samples per second are possible")?;
-        Ok(Self { rate, channels, read, waiting: Vec::new(), is_over: false, block: 0 })
+        Ok(Self { rate, channels, read, waiting: Vec::new(), encoded: 0, is_over: false, block: 0 })
     }
 }
 
@@ -80,14 +83,26 @@ impl SoundPackets for FlacEncoder {
     }
 
     fn next(&mut self, most: u32) -> Result<Option<SoundPacket>, String> {
-        while self.waiting.len() < BLOCK * self.channels && !self.is_over {
-            self.is_over = !(self.read)(&mut self.waiting)?;
+        if self.waiting.len() - self.encoded < BLOCK * self.channels {
+            // Moved once for all the blocks that were there.
+            self.waiting.drain(..std::mem::take(&mut self.encoded));
         }
-        let length = (self.waiting.len() / self.channels).min(BLOCK).min(most as usize);
+        let mut idle = 0;
+        while self.waiting.len() - self.encoded < BLOCK * self.channels && !self.is_over {
+            let before = self.waiting.len();
+            self.is_over = !(self.read)(&mut self.waiting)?;
+            idle = if self.waiting.len() > before { 0 } else { idle + 1 };
+            if idle == MOST_IDLE {
+                return Err("it gives no more samples, and does not end".to_owned());
+            }
+        }
+        let waiting = &self.waiting[self.encoded..];
+        let length = (waiting.len() / self.channels).min(BLOCK).min(most as usize);
         if length == 0 {
             return Ok(None);
         }
-        let taken: Vec<f32> = self.waiting.drain(..length * self.channels).collect();
+        let taken = &waiting[..length * self.channels];
+        self.encoded += taken.len();
         let channel = |channel: usize| {
             let samples = taken.iter().skip(channel).step_by(self.channels);
             samples.map(|sample| level(*sample)).collect()

@@ -8,7 +8,8 @@ use shiguredo_mp4::boxes::SampleEntry;
 use std::fmt;
 use std::num::NonZeroU32;
 
-/// Writes the next samples of all channels, one after the other, from -1 to 1. Returns false at the end; an error is a clause.
+/// Appends the next samples of all channels, one after the other, from -1 to 1. Returns false at the end; an error is a clause. A source that
+/// gives none many times in a row without an end counts as one that cannot be read.
 pub type ReadSamples = Box<dyn FnMut(&mut Vec<f32>) -> Result<bool, String> + Send>;
 
 /// The sound of a movie, from its start on; what is longer than the movie is cut.
