@@ -34,6 +34,7 @@ mod pose_library;
 mod project_disks;
 mod project_faults;
 mod project_moved;
+mod project_saved_over;
 mod project_saves;
 mod project_shared;
 mod projects;

@@ -247,7 +247,7 @@ impl Editable {
         let own = self.is_own(output);
         let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
         let cancel = Cancel::default();
-        let files = self.files(plan, output, &cancel)?;
+        let files = self.files(plan, output, &cancel, &|_| {})?;
         let is_elsewhere = files.is_elsewhere;
         let how = Writing { disk, overwrite, replaces: &[], versions: None, becomes: own, is_elsewhere };
         let saved = self.write(adapter, files, how, &cancel).map_err(|error| error.to_string())?;

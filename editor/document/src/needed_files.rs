@@ -24,11 +24,54 @@ pub(super) struct NeededFiles {
 }
 
 impl NeededFiles {
-    /// Finds the files that `texts`, a project with its scripts or a script alone, need in `folder`. Reads each model to know what it needs.
-    pub(super) fn of(texts: &TextFiles, is_project: bool, folder: &Folder, cancel: &Cancel) -> Self {
-        let mut search = FileSearch { folder, cancel, found: Self::default() };
+    /// Finds the files that `texts`, a project with its scripts or a script alone, need in `folder`. Reads each model to know what it needs;
+    /// `progress` is called after each with the fraction of the models that were read.
+    pub(super) fn of(
+        texts: &TextFiles,
+        is_project: bool,
+        folder: &Folder,
+        cancel: &Cancel,
+        progress: &dyn Fn(f32),
+    ) -> Self {
+        let (mut found, models) = Self::listed(texts, is_project, folder, cancel);
+        for (read, name) in models.iter().enumerate() {
+            if cancel.is_cancelled() {
+                break;
+            }
+            found.add_files_of(name, folder, cancel);
+            progress((read + 1) as f32 / models.len() as f32);
+        }
+        found
+    }
+
+    /// Finds the files that `texts` name themselves. Reads no model.
+    pub(super) fn named(texts: &TextFiles, is_project: bool, folder: &Folder, cancel: &Cancel) -> Self {
+        Self::listed(texts, is_project, folder, cancel).0
+    }
+
+    /// Returns the files that `texts` name, and the models among them.
+    fn listed(
+        texts: &TextFiles,
+        is_project: bool,
+        folder: &Folder,
+        cancel: &Cancel,
+    ) -> (Self, BTreeSet<String>) {
+        let mut search = FileSearch { folder, cancel, found: Self::default(), models: BTreeSet::new() };
         search.of_texts(texts, is_project);
-        search.found
+        let FileSearch { mut found, models, .. } = search;
+        found.names.extend(models.iter().cloned());
+        (found, models)
+    }
+
+    /// Adds the files that a model of `folder` needs.
+    fn add_files_of(&mut self, name: &str, folder: &Folder, cancel: &Cancel) {
+        // A missing model is found when it is copied.
+        let Ok(path) = folder.path_of(name) else { return };
+        let Ok(bytes) = folder.read(name, FILE_BYTES) else { return };
+        let Ok(Self { names, reasons }) = Self::of_model(&path, &bytes, cancel) else { return };
+        let inside = name.rsplit_once('/').map_or("", |(folder, _)| folder);
+        self.names.extend(names.iter().map(|own| below(inside, own)));
+        self.reasons.extend(reasons.into_iter().map(|reason| format!("{name}: {reason}")));
     }
 
     /// Finds the files that the model at `path` with these bytes needs itself, by names relative to its folder.
@@ -45,11 +88,12 @@ impl NeededFiles {
     }
 }
 
-/// The search for the files that texts need.
+/// The search for the files that texts name.
 struct FileSearch<'a> {
     folder: &'a Folder,
     cancel: &'a Cancel,
     found: NeededFiles,
+    models: BTreeSet<String>,
 }
 
 impl FileSearch<'_> {
@@ -62,7 +106,7 @@ impl FileSearch<'_> {
             Ok(project) => {
                 let own: Vec<String> = project.files().into_iter().map(str::to_owned).collect();
                 for model in project.tree().elements().iter().filter_map(model_of) {
-                    self.of_model(project.source_of(model));
+                    self.models.insert(project.source_of(model).to_owned());
                 }
                 self.found.names.extend(own);
                 for file in scripts.iter().filter(|file| project.scripts().any(|name| *name == *file.name)) {
@@ -105,31 +149,15 @@ impl FileSearch<'_> {
     fn of_tree(&mut self, tree: &ScriptTree, inside: &str, project: Option<&StageProject>) {
         for element in tree.elements() {
             if let Some(model) = element.value("model") {
-                match project.filter(|project| project.model_id(model).is_some()) {
-                    Some(project) => self.of_model(project.source_of(model)),
-                    None => self.of_model(&below(inside, model)),
-                }
+                self.models.insert(match project.filter(|project| project.model_id(model).is_some()) {
+                    Some(project) => project.source_of(model).to_owned(),
+                    None => below(inside, model),
+                });
             }
             if let Some(source) = element.value("src").filter(|_| element.row.name != "include") {
                 self.found.names.insert(below(inside, source));
             }
         }
-    }
-
-    /// Adds a model and the files that it needs.
-    fn of_model(&mut self, name: &str) {
-        if self.cancel.is_cancelled() || !self.found.names.insert(name.to_owned()) {
-            return;
-        }
-        // A missing model is found when it is copied.
-        let Ok(path) = self.folder.path_of(name) else { return };
-        let Ok(bytes) = self.folder.read(name, FILE_BYTES) else { return };
-        let Ok(NeededFiles { names, reasons }) = NeededFiles::of_model(&path, &bytes, self.cancel) else {
-            return;
-        };
-        let inside = name.rsplit_once('/').map_or("", |(folder, _)| folder);
-        self.found.names.extend(names.iter().map(|own| below(inside, own)));
-        self.found.reasons.extend(reasons.into_iter().map(|reason| format!("{name}: {reason}")));
     }
 }
 

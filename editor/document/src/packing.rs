@@ -51,7 +51,7 @@ pub fn pack(path: &Path, cancel: &Cancel) -> Result<Vec<u8>, PackError> {
     let read = read_texts(path)?;
     let unread = |reason| LoadError::File { path: path.to_owned(), reason };
     let folder = Folder::of(path).map_err(unread)?;
-    let needed = NeededFiles::of(&read.texts, is_project(path), &folder, cancel);
+    let needed = NeededFiles::of(&read.texts, is_project(path), &folder, cancel, &|_| {});
     if cancel.is_cancelled() {
         return Err(LoadError::Cancelled.into());
     }

@@ -6,7 +6,7 @@ use super::copied_files::{CANCELLED, CopiedFiles, ensure_inside, other_file};
 use super::editable::{Editable, is_same_path};
 use super::edited_content::EditedContent;
 use super::needed_files::NeededFiles;
-use super::text_source::is_project;
+use super::text_source::{contains_scene, is_project};
 use super::{Cancel, Folder};
 use dragonfly_anim::format::{OutputFile, SavePlan};
 use dragonfly_store::{FileStamp, RealFiles, folder_of};
@@ -35,12 +35,19 @@ impl Editable {
     }
 
     /// Returns the files that saving as `output` writes. What the document needs is copied along to another folder: the files next to a
-    /// model; the texts, models and sounds of a scene.
+    /// model; the texts, models and sounds of a scene. Models of a scene may be read to know which files they need; `progress` is called with
+    /// the fraction of them that was read.
     ///
     /// # Errors
     ///
     /// The path and the reason why it is impossible, or it was cancelled. A file that the other folder has must be the one that is needed.
-    pub fn files(&self, plan: &SavePlan, output: &Path, cancel: &Cancel) -> Result<SaveFiles, String> {
+    pub fn files(
+        &self,
+        plan: &SavePlan,
+        output: &Path,
+        cancel: &Cancel,
+        progress: &dyn Fn(f32),
+    ) -> Result<SaveFiles, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(SaveFiles::default()) };
         let folder = folder_of(output);
         // A mistyped name makes no folder. Only folders of the files next to the model are created.
@@ -57,7 +64,7 @@ impl Editable {
         let earlier = self.copies.of(output).unwrap_or(&none);
         let Some(from) = from else {
             if !is_device {
-                self.ensure_not_needed(plan, output, cancel)?;
+                self.ensure_not_needed(plan, output, cancel, progress)?;
             }
             files.written = beside.iter().map(written).collect();
             files.written.push((output.to_path_buf(), main.bytes.clone()));
@@ -84,8 +91,8 @@ impl Editable {
             EditedContent::Texts(texts) => {
                 let texts = saved_texts(texts, plan);
                 files.add_texts(&texts, folder, earlier)?;
-                let needed =
-                    NeededFiles::of(&texts, self.path.as_deref().is_some_and(is_project), &from, cancel);
+                let is_of_project = self.path.as_deref().is_some_and(is_project);
+                let needed = NeededFiles::of(&texts, is_of_project, &from, cancel, progress);
                 let is_other = |name: &String| texts.called(name).is_none();
                 NeededFiles { names: needed.names.into_iter().filter(is_other).collect(), ..needed }
             }
@@ -102,8 +109,15 @@ impl Editable {
         Ok(files)
     }
 
-    /// Checks that a save as another file of the folder does not replace a file that the document needs.
-    fn ensure_not_needed(&self, plan: &SavePlan, output: &Path, cancel: &Cancel) -> Result<(), String> {
+    /// Checks that a save as another file of the folder does not replace a file that the document needs. Reads models only where the file is
+    /// not itself a script or a project: no format has one among the files that a model needs.
+    fn ensure_not_needed(
+        &self,
+        plan: &SavePlan,
+        output: &Path,
+        cancel: &Cancel,
+        progress: &dyn Fn(f32),
+    ) -> Result<(), String> {
         let EditedContent::Texts(texts) = &self.content else { return Ok(()) };
         if self.is_own(output) || output.symlink_metadata().is_err() {
             return Ok(());
@@ -111,7 +125,10 @@ impl Editable {
         let folder = Folder::of(output).map_err(|error| format!("{}: {error}", output.display()))?;
         let texts = saved_texts(texts, plan);
         let is_of_project = self.path.as_deref().is_some_and(is_project);
-        let needed = NeededFiles::of(&texts, is_of_project, &folder, cancel);
+        let needed = match contains_scene(output) {
+            true => NeededFiles::named(&texts, is_of_project, &folder, cancel),
+            false => NeededFiles::of(&texts, is_of_project, &folder, cancel, progress),
+        };
         let others = texts.list().iter().skip(1).map(|file| file.name.to_string());
         // A missing file that is needed is no reason: then there is no file of this name.
         let is_it = |name: &String| is_same_path(&folder_of(output).join(name), output);

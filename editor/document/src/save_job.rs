@@ -95,7 +95,7 @@ pub(super) struct WrittenSave {
 pub(super) fn prepare(mut input: SaveInput, cancel: &Cancel) -> Result<PreparedSave, String> {
     input.faults.reach(FaultPoint::PrepareSave);
     let plan = input.editable.plan(input.edited.adapter()).map_err(|error| error.to_string())?;
-    let files = input.editable.files(&plan, &input.output, cancel)?;
+    let files = input.editable.files(&plan, &input.output, cancel, &|_| {})?;
     let bytes = files.written.last().map_or(&[][..], |(_, bytes)| bytes);
     let is_main_written = !input.editable.keeps_main(&input.output, bytes, input.overwrite);
     let main = FileContents { size: bytes.len() as u64, hash: dragonfly_store::hash(bytes) };

@@ -7,7 +7,7 @@ use super::source::{LoadError, file_name};
 use super::{FileAccessError, read_file};
 use dragonfly_anim::format::AssetFs;
 use dragonfly_anim::stage::project::StageProject;
-use dragonfly_anim::stage::script::{MOST_BYTES, ScriptError};
+use dragonfly_anim::stage::script::{MOST_BYTES, ScriptError, ScriptTree};
 use dragonfly_store::{FileStamp, RealFiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -40,6 +40,13 @@ pub fn is_scene(path: &Path) -> bool {
 /// Returns whether a file is a project by its name.
 pub fn is_project(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("meproj"))
+}
+
+/// Returns whether a file contains a script or a project that can be read.
+pub(super) fn contains_scene(path: &Path) -> bool {
+    let Ok(bytes) = read_file(path, MOST_BYTES as u64) else { return false };
+    text_of(bytes)
+        .is_ok_and(|text| ScriptTree::read(Arc::clone(&text)).is_ok() || StageProject::read(text).is_ok())
 }
 
 /// Reads the texts of the document at `path`.
