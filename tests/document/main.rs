@@ -31,6 +31,7 @@ mod offset_keys;
 mod old_defaults;
 mod old_journals;
 mod pose_library;
+mod project_copies;
 mod project_disks;
 mod project_faults;
 mod project_moved;

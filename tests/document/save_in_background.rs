@@ -60,7 +60,7 @@ impl HeldSave {
     }
 
     #[track_caller]
-    fn wait_until_reached(&self) {
+    pub(super) fn wait_until_reached(&self) {
         let state = self.state.lock().unwrap();
         let waited = self.changed.wait_timeout_while(state, Duration::from_secs(60), |held| !held.reached);
         assert!(!waited.unwrap().1.timed_out(), "no save has reached {:?}", self.at);

@@ -60,7 +60,7 @@ impl FaultPlan for Switches {
                 assert!(count_down(&self.changes) != Some(1), "injected fault");
                 return;
             }
-            FaultPoint::PrepareSave | FaultPoint::WriteSave => return,
+            FaultPoint::PrepareSave | FaultPoint::WriteSave | FaultPoint::CopiedFile(_) => return,
             FaultPoint::GraphicsMessage => FailTarget::Message,
             FaultPoint::Frame => FailTarget::Frame,
             FaultPoint::Panels(done) => {

@@ -69,6 +69,8 @@ struct FileCopy {
     name: String,
     /// The path of the copy.
     path: PathBuf,
+    /// Its size in bytes when it was found.
+    size: u64,
     /// The stamp of an earlier copy, which this one replaces.
     replaced: Option<FileStamp>,
 }
@@ -99,12 +101,12 @@ impl CopiedFiles {
             }
             match opened {
                 Ok((file, size)) if is_same(&file, size, &target) => present.push(target),
-                Ok(_) => {
+                Ok((_, size)) => {
                     let replaced = earlier.unchanged(&target).copied();
                     if replaced.is_none() && target.symlink_metadata().is_ok() {
                         return Err(other_file(&target));
                     }
-                    files.push(FileCopy { name, path: target, replaced });
+                    files.push(FileCopy { name, path: target, size, replaced });
                 }
                 Err(reason) => missing.push(format!("{name} {reason}; it was not copied")),
             }
@@ -149,6 +151,11 @@ impl CopiedFiles {
         self.files.iter().map(|file| &*file.path)
     }
 
+    /// Returns the number of bytes that are copied.
+    pub(super) fn bytes(&self) -> u64 {
+        self.files.iter().map(|file| file.size).sum()
+    }
+
     /// Returns the paths at which the other folder has the same files already.
     pub(super) fn present(&self) -> impl Iterator<Item = &Path> {
         self.present.iter().map(|path| &**path)
@@ -166,7 +173,7 @@ impl CopiedFiles {
         mut written: impl FnMut(&Path, usize, SaveOutcome),
     ) -> Result<(), String> {
         let Some(from) = &self.from else { return Ok(()) };
-        for FileCopy { name, path, replaced } in &self.files {
+        for FileCopy { name, path, replaced, .. } in &self.files {
             if cancel.is_cancelled() {
                 return Err(CANCELLED.to_owned());
             }

@@ -249,7 +249,15 @@ impl Editable {
         let cancel = Cancel::default();
         let files = self.files(plan, output, &cancel, &|_| {})?;
         let is_elsewhere = files.is_elsewhere;
-        let how = Writing { disk, overwrite, replaces: &[], versions: None, becomes: own, is_elsewhere };
+        let how = Writing {
+            disk,
+            overwrite,
+            replaces: &[],
+            versions: None,
+            becomes: own,
+            is_elsewhere,
+            copied: &|_, _| {},
+        };
         let saved = self.write(adapter, files, how, &cancel).map_err(|error| error.to_string())?;
         Ok(saved.files)
     }

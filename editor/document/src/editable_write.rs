@@ -2,12 +2,13 @@
 
 use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
-use super::copied_files::{CANCELLED, other_file};
+use super::copied_files::other_file;
 use super::editable::{Editable, is_same_path, make_folder, opened, places};
 use super::edited_content::EditedContent;
 use super::save_files::{SaveFiles, WrittenFile};
 use super::source::file_name;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, UnsavedFile, Writing, save_file};
+use super::written_copies::WrittenCopies;
 use super::{Cancel, unused};
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::buffer_of_save;
@@ -23,7 +24,7 @@ impl Editable {
     /// # Errors
     ///
     /// The reason. If another program changed one of the files, none was written. Otherwise those before the one that failed were, and
-    /// later saves are relative to them too.
+    /// later saves are relative to them too. In another folder those that were created are removed again.
     pub(super) fn write(
         &mut self,
         adapter: &ModelAdapter,
@@ -31,18 +32,47 @@ impl Editable {
         how: Writing<'_>,
         cancel: &Cancel,
     ) -> Result<FilesSaved, SaveFailure> {
+        if !how.is_elsewhere {
+            return self.write_files(adapter, files, &how, cancel, &mut WrittenCopies::default());
+        }
+        let earlier = self.copies.clone();
+        let written = files.written.iter().map(|(path, _)| &**path);
+        let mut copies = WrittenCopies::before(files.copied.paths().chain(written));
+        self.write_files(adapter, files, &how, cancel, &mut copies).map_err(|reason| {
+            let stay = copies.remove();
+            if stay.is_empty() {
+                self.copies = earlier;
+            }
+            let reason = if cancel.is_cancelled() { SaveFailure::Cancelled(Vec::new()) } else { reason };
+            reason.with_staying(stay)
+        })
+    }
+
+    /// Writes the files, and adds those in another folder to `copies`.
+    fn write_files(
+        &mut self,
+        adapter: &ModelAdapter,
+        files: SaveFiles,
+        how: &Writing<'_>,
+        cancel: &Cancel,
+        copies: &mut WrittenCopies,
+    ) -> Result<FilesSaved, SaveFailure> {
         let SaveFiles { copied, written: mut files, kept, .. } = files;
         let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
-        self.check_expected(&files, &main, &how)?;
+        self.check_expected(&files, &main, how)?;
         let mut beside = BesideStamps::default();
         let mut saved = FilesSaved { notices: copied.notices().collect(), ..FilesSaved::default() };
-        copied.write(how.versions, cancel, |path, _, done| {
+        let (mut bytes_copied, all) = (0, copied.bytes().max(1));
+        copied.write(how.versions, cancel, |path, bytes, done| {
             saved.notices.extend(done.notices);
             saved.files.push(path.to_path_buf());
+            copies.add(path, done.stamp);
             self.copies.add(&main, done.path, done.stamp);
+            bytes_copied += bytes as u64;
+            (how.copied)(saved.files.len(), (bytes_copied as f32 / all as f32).min(1.0));
         })?;
         if how.is_elsewhere && cancel.is_cancelled() {
-            return Err(SaveFailure::Other(CANCELLED.to_owned()));
+            return Err(SaveFailure::Cancelled(Vec::new()));
         }
         for (path, stamp) in kept {
             // It was found to be the same when the files were listed.
@@ -56,13 +86,14 @@ impl Editable {
         for (path, bytes) in &files {
             // A text of a project has versions as the project has.
             let versions = how.versions.filter(|_| matches!(self.content, EditedContent::Texts(_)));
-            let options = SaveOptions { expected: self.expected(path, &main, &how), versions };
+            let options = SaveOptions { expected: self.expected(path, &main, how), versions };
             let done = make_folder(path)
                 .map_err(UnsavedFile::from)
                 .and_then(|()| save_file(how.disk, path, bytes, &options));
             match done {
                 Ok(done) => {
                     if how.is_elsewhere {
+                        copies.add(path, done.stamp);
                         self.copies.add(&main, done.path.clone(), done.stamp);
                     }
                     beside.add(done.path, done.stamp);
@@ -72,13 +103,14 @@ impl Editable {
                 Err(UnsavedFile { reason, own }) => {
                     if let Some((own, stamp)) = own {
                         if how.is_elsewhere {
+                            copies.add(path, stamp);
                             self.copies.add(&main, own.clone(), stamp);
                         }
                         beside.add(own, stamp);
                         saved.files.push(path.clone());
                     }
                     self.note_written(adapter, &main, &saved.files, beside);
-                    return Err(reason);
+                    return Err(if how.is_elsewhere { reason.of_copy(other_file(path)) } else { reason });
                 }
             }
         }
@@ -98,6 +130,10 @@ impl Editable {
             Ok(done) => done,
             Err(UnsavedFile { reason, own }) => {
                 self.note_written(adapter, &main, &saved.files, beside);
+                // The main file is there, and refers to the others.
+                if own.is_some() {
+                    copies.keep();
+                }
                 if let Some((_, stamp)) = own.filter(|_| self.is_own(&main)) {
                     self.stamp = Some(stamp);
                 }
@@ -163,10 +199,17 @@ impl Editable {
             }
         }
         for (path, _) in files {
-            if matches!(self.expected(path, main, how), ExpectedFile::Nothing)
-                && path.symlink_metadata().is_ok()
-            {
-                return Err(SaveFailure::Exists(path.clone()));
+            let is_as_expected = match self.expected(path, main, how) {
+                ExpectedFile::Anything => true,
+                ExpectedFile::Nothing => path.symlink_metadata().is_err(),
+                // Of the document's own folder they were checked.
+                ExpectedFile::Stamp(stamp) => {
+                    !how.is_elsewhere || stamp.state(&RealFiles, path).ok() != Some(FileState::Changed)
+                }
+            };
+            if !is_as_expected {
+                let reason = SaveFailure::Exists(path.clone());
+                return Err(if how.is_elsewhere { reason.of_copy(other_file(path)) } else { reason });
             }
         }
         if how.overwrite == Overwrite::Nothing && main.symlink_metadata().is_ok() {

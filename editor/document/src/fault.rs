@@ -12,6 +12,8 @@ pub enum FaultPoint {
     PrepareSave,
     /// The job that writes a save, before it writes anything.
     WriteSave,
+    /// The job that writes a save, after it has copied a file into another folder; the number of files copied so far.
+    CopiedFile(usize),
     /// The graphics thread, after it has handled a message.
     GraphicsMessage,
     /// The graphics thread, before it draws a frame.

@@ -21,6 +21,8 @@ pub(super) enum JobNews {
     Progress(u64, Progress),
     /// The result of the loading job with this ticket.
     Loaded(u64, Result<Box<OpenedModel>, LoadError>),
+    /// The fraction of the save with this ticket that is done.
+    SaveProgress(u64, f32),
     /// A step of the save with this ticket has ended.
     SaveStep(u64),
     /// The result of a search for unsaved work.

@@ -105,6 +105,7 @@ mod unused;
 mod view;
 mod waiting_scene;
 mod writing;
+mod written_copies;
 
 pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
@@ -152,3 +153,4 @@ pub use take_thresholds::TakeThresholds;
 pub use text_source::{is_project, is_scene, is_script};
 pub use thing_names::{references_of_renamed_thing, script_that_names};
 pub use view::{FileView, HistoryView, LoadedModel, View};
+pub use writing::StayingFiles;

@@ -89,6 +89,7 @@ impl Receiver for JobReceiver {
         match news {
             JobNews::Progress(ticket, progress) => document.show_progress(ticket, progress),
             JobNews::Loaded(ticket, loaded) => document.finish_loading(ticket, loaded),
+            JobNews::SaveProgress(ticket, done) => document.show_save_progress(ticket, done),
             JobNews::SaveStep(ticket) => document.save_step(ticket, thread.now()),
             JobNews::Scanned(scan) => document.offer(scan),
             JobNews::Compared(loaded) => document.compared_read(loaded),

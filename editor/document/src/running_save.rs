@@ -1,17 +1,19 @@
 //! A save that is running, and what must wait for its end.
 
-use super::copied_files::CANCELLED;
 use super::job::JobNews;
 use super::message::{DocumentMessage, DocumentReply};
 use super::owner::Document;
 use super::save_job::{PreparedSave, SaveInput, WrittenSave, prepare};
 use super::saving::{FailedSave, NotSaved, SaveOrder, SavedFile};
 use super::{Cancel, Change, LoadError, LoadStage, OpenedModel, Progress};
-use dragonfly_runtime::{Address, Job};
+use dragonfly_runtime::{Address, Job, JobContext};
 use std::time::Instant;
 
 /// Size in bytes of a file from which the status line shows that it is being saved.
 const LARGE: u64 = 8 << 20;
+
+/// Fraction of a save with copies after which the files that are copied are known. Before, the models of the scene are read.
+const FILES_KNOWN: f32 = 0.5;
 
 /// A save that is running.
 pub(super) struct RunningSave {
@@ -87,7 +89,7 @@ impl RunningSave {
         order: SaveOrder,
         copies_along: bool,
         failed: fn(NotSaved) -> SaveStage,
-        work: impl FnOnce(&Cancel) -> SaveStage + Send + 'static,
+        work: impl FnOnce(&JobContext<JobNews>) -> SaveStage + Send + 'static,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
         let (ended, steps) = flume::bounded(1);
         let panicked = ended.clone();
@@ -96,7 +98,7 @@ impl RunningSave {
             "save",
             move |job| {
                 // Fails only if the document has ended without waiting for the save.
-                let _ = ended.send(work(job.cancel_flag()));
+                let _ = ended.send(work(job));
                 JobNews::SaveStep(ticket)
             },
             move |panic| {
@@ -121,8 +123,14 @@ impl RunningSave {
         input: SaveInput,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
         let copies_along = input.copies_along();
-        let work = move |cancel: &Cancel| {
-            SaveStage::Prepared(prepare(input, cancel).map(Box::new).map_err(NotSaved::Failed))
+        let work = move |job: &JobContext<JobNews>| {
+            let progress =
+                |done: f32| job.report(done * FILES_KNOWN, |done| JobNews::SaveProgress(ticket, done));
+            let prepared = prepare(input, job.cancel_flag(), &progress).map(Box::new);
+            SaveStage::Prepared(prepared.map_err(|reason| match job.is_cancelled() {
+                true => NotSaved::Cancelled(Vec::new()),
+                false => NotSaved::Failed(reason),
+            }))
         };
         Self::start(document, ticket, order, copies_along, |reason| SaveStage::Prepared(Err(reason)), work)
     }
@@ -134,8 +142,13 @@ impl RunningSave {
         prepared: Box<PreparedSave>,
     ) -> Result<Self, Box<(SaveOrder, NotSaved)>> {
         let copies_along = prepared.copies_along();
-        let work = move |cancel: &Cancel| {
-            SaveStage::Written(prepared.write(cancel).map(Box::new).map_err(FailedSave::from))
+        let work = move |job: &JobContext<JobNews>| {
+            let progress = |done: f32| {
+                let done = FILES_KNOWN + done * (1.0 - FILES_KNOWN);
+                job.report(done, |done| JobNews::SaveProgress(ticket, done));
+            };
+            let written = prepared.write(job.cancel_flag(), &progress);
+            SaveStage::Written(written.map(Box::new).map_err(FailedSave::from))
         };
         Self::start(
             document,
@@ -213,7 +226,7 @@ impl Document {
         match save.steps.recv() {
             // It was cancelled while this step ended.
             Ok(SaveStage::Prepared(Ok(_))) if save.is_cancelled => {
-                self.end_save(save.order, Err(NotSaved::Failed(CANCELLED.to_owned()).into()), now);
+                self.end_save(save.order, Err(NotSaved::Cancelled(Vec::new()).into()), now);
             }
             Ok(SaveStage::Prepared(Ok(mut prepared))) => {
                 let Some(open) = &mut self.open else { return };
@@ -227,6 +240,16 @@ impl Document {
             // Its sender is in the job, which sends before it ends.
             Err(flume::RecvError::Disconnected) => {}
         }
+    }
+
+    /// Reports how much of the save with this ticket is done, if it copies files into another folder.
+    pub(super) fn show_save_progress(&self, ticket: u64, done: f32) {
+        let is_shown = |save: &RunningSave| save.ticket == ticket && save.copies_along;
+        let Some(open) = self.open.as_ref().filter(|_| self.save.as_ref().is_some_and(is_shown)) else {
+            return;
+        };
+        let progress = Progress { stage: LoadStage::Copying, done };
+        self.reply(DocumentReply::Loading { title: open.file.title.clone(), progress });
     }
 
     /// Cancels a save that copies files into another folder, if one is running: it stops between two files.
@@ -253,13 +276,13 @@ impl Document {
         let now = Instant::now();
         let written = match save.steps.recv() {
             Ok(SaveStage::Prepared(Ok(prepared))) if prepared.copies_along() => {
-                Err(NotSaved::Failed(CANCELLED.to_owned()).into())
+                Err(NotSaved::Cancelled(Vec::new()).into())
             }
             Ok(SaveStage::Prepared(Ok(mut prepared))) => {
                 // The document was lost, and with it the journal.
                 let Some(open) = &mut self.open else { return };
                 open.record_saving(&mut prepared, now);
-                prepared.write(&Cancel::default()).map(Box::new).map_err(FailedSave::from)
+                prepared.write(&Cancel::default(), &|_| {}).map(Box::new).map_err(FailedSave::from)
             }
             Ok(SaveStage::Prepared(Err(reason))) => Err(reason.into()),
             Ok(SaveStage::Written(written)) => written,

@@ -88,14 +88,19 @@ pub(super) struct WrittenSave {
     pub(super) journal: Option<Result<Journal, JournalError>>,
 }
 
-/// Computes the files that a save writes, and writes the successor of the journal.
+/// Computes the files that a save writes, and writes the successor of the journal. `progress` is called with the fraction of the models of a scene
+/// that were read to know which files they need.
 ///
 /// # Errors
 /// The reason why it cannot be saved, or it was cancelled. Nothing was written.
-pub(super) fn prepare(mut input: SaveInput, cancel: &Cancel) -> Result<PreparedSave, String> {
+pub(super) fn prepare(
+    mut input: SaveInput,
+    cancel: &Cancel,
+    progress: &dyn Fn(f32),
+) -> Result<PreparedSave, String> {
     input.faults.reach(FaultPoint::PrepareSave);
     let plan = input.editable.plan(input.edited.adapter()).map_err(|error| error.to_string())?;
-    let files = input.editable.files(&plan, &input.output, cancel, &|_| {})?;
+    let files = input.editable.files(&plan, &input.output, cancel, progress)?;
     let bytes = files.written.last().map_or(&[][..], |(_, bytes)| bytes);
     let is_main_written = !input.editable.keeps_main(&input.output, bytes, input.overwrite);
     let main = FileContents { size: bytes.len() as u64, hash: dragonfly_store::hash(bytes) };
@@ -168,13 +173,18 @@ impl PreparedSave {
         self.journal.take()
     }
 
-    /// Writes the files.
+    /// Writes the files. `progress` is called with the fraction of the copies that were made.
     ///
     /// # Errors
     /// The reason why it was not saved, and what was written before.
-    pub(super) fn write(self, cancel: &Cancel) -> Result<WrittenSave, FailedWrite> {
+    pub(super) fn write(self, cancel: &Cancel, progress: &dyn Fn(f32)) -> Result<WrittenSave, FailedWrite> {
         let Self { mut input, files, lost, .. } = self;
         input.faults.reach(FaultPoint::WriteSave);
+        let faults = input.faults.clone();
+        let copied = |files: usize, done: f32| {
+            progress(done);
+            faults.reach(FaultPoint::CopiedFile(files));
+        };
         let target = input.target;
         let versions = input.autosave.as_ref().map(Autosave::versions);
         let becomes = target != SaveTarget::Copy;
@@ -186,6 +196,7 @@ impl PreparedSave {
             versions,
             becomes,
             is_elsewhere,
+            copied: &copied,
         };
         let saved = match input.editable.write(input.edited.adapter(), files, how, cancel) {
             Ok(saved) => saved,

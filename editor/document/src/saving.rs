@@ -84,6 +84,9 @@ pub enum NotSaved {
     Exists(PathBuf),
     /// The whole file would be replaced, and lose what the program does not read: the user decides.
     Rewritten,
+    /// The user stopped it. Contains the files in another folder that were written before and stay: mostly those of an earlier copy, which were
+    /// replaced.
+    Cancelled(Vec<PathBuf>),
     /// Any other failure, with path and reason.
     Failed(String),
 }
@@ -115,6 +118,7 @@ impl From<SaveFailure> for NotSaved {
         match failure {
             SaveFailure::Changed(_) => Self::Changed,
             SaveFailure::Exists(path) => Self::Exists(path),
+            SaveFailure::Cancelled(stay) => Self::Cancelled(stay),
             other @ SaveFailure::Other(_) => Self::Failed(other.to_string()),
         }
     }

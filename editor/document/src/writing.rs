@@ -3,8 +3,12 @@
 use dragonfly_store::{
     FileSaveError as DiskError, FileStamp, RealFiles, SaveOptions, SaveOutcome, Versions, Vfs,
 };
+use std::fmt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+
+/// Number of files that were written before a save failed of which a message names each.
+const NAMED: usize = 5;
 
 /// The files that a save may overwrite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +34,8 @@ pub(super) struct Writing<'a> {
     pub(super) becomes: bool,
     /// Whether the files are in another folder than the document.
     pub(super) is_elsewhere: bool,
+    /// Called after each file that is copied into that folder, with the number of copies and the fraction of their bytes so far.
+    pub(super) copied: &'a dyn Fn(usize, f32),
 }
 
 /// The files that a save has written.
@@ -52,6 +58,9 @@ pub(super) enum SaveFailure {
     /// A file of this name exists already.
     #[error("{}: a file of this name exists already; it was not overwritten", .0.display())]
     Exists(PathBuf),
+    /// It was cancelled. Contains the files that were written before and stay.
+    #[error("the save was cancelled{}", StayingFiles(.0))]
+    Cancelled(Vec<PathBuf>),
     /// Any other failure.
     #[error("{0}")]
     Other(String),
@@ -97,6 +106,46 @@ impl SaveFailure {
             DiskError::Changed { path } => Self::Changed(path),
             DiskError::Exists { path } => Self::Exists(path),
             other => Self::Other(other.to_string()),
+        }
+    }
+
+    /// Returns the failure to write a file next to the main one into another folder. Where that file exists or changed, the user is told `reason`: the
+    /// questions are about the main one.
+    pub(super) fn of_copy(self, reason: String) -> Self {
+        match self {
+            Self::Changed(_) | Self::Exists(_) => Self::Other(reason),
+            other @ (Self::Cancelled(_) | Self::Other(_)) => other,
+        }
+    }
+
+    /// Adds the files in another folder that were written before and stay.
+    pub(super) fn with_staying(self, files: Vec<PathBuf>) -> Self {
+        if files.is_empty() {
+            return self;
+        }
+        match self {
+            Self::Cancelled(_) => Self::Cancelled(files),
+            other @ (Self::Changed(_) | Self::Exists(_) | Self::Other(_)) => {
+                Self::Other(format!("{other}{}", StayingFiles(&files)))
+            }
+        }
+    }
+}
+
+/// The end of a sentence about a save that failed: the files that it wrote before and that stay.
+pub struct StayingFiles<'a>(pub &'a [PathBuf]);
+
+impl fmt::Display for StayingFiles<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let more = self.0.len().saturating_sub(NAMED);
+        for (index, path) in self.0.iter().take(NAMED).enumerate() {
+            let before = if index == 0 { "; files that were written before stay: " } else { ", " };
+            write!(out, "{before}{}", path.display())?;
+        }
+        match more {
+            0 => Ok(()),
+            1 => write!(out, " and one more file"),
+            more => write!(out, " and {more} more files"),
         }
     }
 }

@@ -160,7 +160,7 @@ impl Session {
         let now = Instant::now();
         let input = self.open.begin_saving(target, role, overwrite, None, FaultInjection::default(), now)?;
         let cancel = Cancel::default();
-        let mut prepared = match prepare(input, &cancel) {
+        let mut prepared = match prepare(input, &cancel, &|_| {}) {
             Ok(prepared) => prepared,
             Err(reason) => {
                 self.open.save_failed(None, None);
@@ -169,7 +169,7 @@ impl Session {
         };
         self.open.record_saving(&mut prepared, now);
         let (changes, lost) = (changes(prepared.changes()), prepared.lost().to_vec());
-        let written = match prepared.write(&cancel) {
+        let written = match prepared.write(&cancel, &|_| {}) {
             Ok(written) => written,
             Err(FailedWrite { reason, partly, copies }) => {
                 self.open.save_failed(partly, Some(copies));

@@ -6,7 +6,9 @@ use crate::panels::prompts::Question;
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_document::{Decision, DocumentMessage, NotSaved, Offer, SaveOrder, SaveTo, SavedFile};
+use dragonfly_document::{
+    Decision, DocumentMessage, NotSaved, Offer, SaveOrder, SaveTo, SavedFile, StayingFiles,
+};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 
@@ -147,13 +149,27 @@ pub(in crate::panels) fn not_saved(
         }
         NotSaved::Exists(path) => ask(workspace, ExistsQuestion { path, order }.into()),
         NotSaved::Rewritten => ask(workspace, RewriteQuestion { order }.into()),
+        NotSaved::Cancelled(stay) => {
+            match stay.as_slice() {
+                [] => workspace.say(MessageSeverity::Info, "The save was stopped; nothing was changed"),
+                stay => {
+                    let text = format!("The save was stopped{}", StayingFiles(stay));
+                    workspace.say(MessageSeverity::Warning, text);
+                }
+            }
+            ask_again(workspace, order);
+        }
         NotSaved::Failed(reason) => {
             workspace.say(MessageSeverity::Error, format!("Not saved: {reason}"));
-            // A user who wanted to leave is asked again what to do with the changes.
-            if let Some(then) = order.then {
-                ask(workspace, UnsavedQuestion { then }.into());
-            }
+            ask_again(workspace, order);
         }
     }
     None
+}
+
+/// Asks a user who wanted to leave again what to do with the changes.
+fn ask_again(workspace: &mut Workspace, order: SaveOrder) {
+    if let Some(then) = order.then {
+        ask(workspace, UnsavedQuestion { then }.into());
+    }
 }
