@@ -90,6 +90,7 @@ mod scene_bar_drags;
 mod scene_bench;
 mod scene_camera;
 mod scene_commands;
+mod scene_copies;
 mod scene_documents;
 mod scene_drop;
 mod scene_examples;

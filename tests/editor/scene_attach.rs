@@ -75,7 +75,8 @@ fn an_object_dropped_on_a_bone_is_a_prop_that_the_bone_holds_from_the_start() {
         let model = |name: &str, form| DroppedModel { name: name.to_owned(), form, scale: 1.0 };
         let models = vec![model("table.glb", form), model("Fox.glb", ModelForm::Figure)];
         let (place, target) = (unknown.place, unknown.target);
-        let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
+        let (sounds, hashes, copied) = (Vec::new(), Vec::new(), None);
+        let dropped = DroppedModels { models, place, sounds, hashes, copied, target };
         execute(&mut window, Request::DroppedModels(Box::new(dropped)));
         let new = new_lines(FOXES, &text(&window));
         assert_eq!((new.len(), window.state().steps()), (3, (1, 1)), "{new:?}");
@@ -124,7 +125,8 @@ fn a_model_dropped_beside_bones_stands_there_as_a_figure_or_an_object() {
     assert!(place.distance(DVec3::new(0.0, 0.0, 1.5)) < 0.02, "{place}");
     let models = vec![DroppedModel { name: "table.glb".to_owned(), form: ModelForm::Object, scale: 1.0 }];
     let (place, target) = (unknown.place.clone(), unknown.target.clone());
-    let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
+    let (sounds, hashes, copied) = (Vec::new(), Vec::new(), None);
+    let dropped = DroppedModels { models, place, sounds, hashes, copied, target };
     execute(&mut window, Request::DroppedModels(Box::new(dropped)));
     let new = new_lines(FOXES, &text(&window));
     assert!(new.len() == 1 && new[0].starts_with(r#"<prop id="table" model="table.glb" at="0"#), "{new:?}");

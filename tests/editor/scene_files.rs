@@ -25,7 +25,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Carries a job out, and returns its answer.
-fn done(
+pub(super) fn done(
     start: fn(Box<WantedFiles>, &Address<SceneFilesAnswer>) -> std::io::Result<Job>,
     wanted: Box<WantedFiles>,
 ) -> SceneFilesAnswer {
@@ -47,13 +47,13 @@ fn execute(window: &mut Window, request: Request) -> Option<Effect> {
             Some(Effect::LookAtFiles(wanted)) => done(scene_files::look, wanted),
             Some(Effect::CopyFiles(wanted)) => done(scene_files::copy, wanted),
             Some(Effect::LookAtModels(unknown)) => {
-                let UnknownModels { models, is_role, place, sounds, hashes, target } = *unknown;
+                let UnknownModels { models, is_role, place, sounds, hashes, copied, target } = *unknown;
                 let read = |(file, name)| {
                     let read = load_model(&Source::File(file), &mut |_| {}, &Cancel::default());
                     DroppedModel::of(name, &read.expect("a model"), is_role)
                 };
                 let models = models.into_iter().map(read).collect();
-                let dropped = DroppedModels { models, place, sounds, hashes, target };
+                let dropped = DroppedModels { models, place, sounds, hashes, copied, target };
                 let state = &mut window.state_mut().state;
                 effect = state.execute(Request::DroppedModels(Box::new(dropped)));
                 continue;
@@ -68,12 +68,12 @@ fn execute(window: &mut Window, request: Request) -> Option<Effect> {
 }
 
 /// Opens a scene as if it were in a folder.
-fn window_in(folder: &Folder, mut bench: Workbench) -> Window {
+pub(super) fn window_in(folder: &Folder, mut bench: Workbench) -> Window {
     move_to(&mut bench, folder);
     bench.window()
 }
 
-fn said(window: &Window, word: &str) -> bool {
+pub(super) fn said(window: &Window, word: &str) -> bool {
     let read = window.state().state.read();
     read.status.lines().any(|message| message.text.contains(word))
 }
@@ -242,7 +242,7 @@ fn the_menu_of_a_thing_decides_about_the_edits_of_its_model() {
 }
 
 /// Shows the same view as that of another document.
-fn open_another(window: &mut Window) {
+pub(super) fn open_another(window: &mut Window) {
     let view = window.state().state.read().view.cloned().expect("a view");
     let opened = Arc::new(LoadedModel::clone(&view.opened));
     window.state_mut().state.show(View {
@@ -270,7 +270,8 @@ fn files_for_a_script_are_not_added_to_another_one_of_the_same_folder() {
     let form = ModelForm::Figure;
     let models = vec![DroppedModel { name: "knight.glb".to_owned(), form, scale: 1.0 }];
     let place = DropPlace::Nowhere;
-    let dropped = DroppedModels { models, place, sounds: Vec::new(), hashes: Vec::new(), target };
+    let (sounds, hashes, copied) = (Vec::new(), Vec::new(), None);
+    let dropped = DroppedModels { models, place, sounds, hashes, copied, target };
     assert_eq!(execute(&mut window, Request::DroppedModels(Box::new(dropped))), None);
     assert_eq!(text(&window), FOXES);
 }

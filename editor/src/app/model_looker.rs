@@ -24,7 +24,7 @@ pub(super) fn look(unknown: UnknownModels, to: &Address<LookedModels>) -> std::i
 ///
 /// The first one that cannot be read, with its name and the reason.
 fn looked(unknown: UnknownModels) -> LookedModels {
-    let UnknownModels { models, is_role, place, sounds, hashes, target } = unknown;
+    let UnknownModels { models, is_role, place, sounds, hashes, copied, target } = unknown;
     let looked = |(file, name)| -> Result<DroppedModel, String> {
         match load_model(&Source::File(file), &mut |_| {}, &Cancel::default()) {
             Ok(loaded) => Ok(DroppedModel::of(name, &loaded, is_role)),
@@ -32,7 +32,7 @@ fn looked(unknown: UnknownModels) -> LookedModels {
         }
     };
     let models: Result<Vec<DroppedModel>, String> = models.into_iter().map(looked).collect();
-    Ok(DroppedModels { models: models?, place, sounds, hashes, target })
+    Ok(DroppedModels { models: models?, place, sounds, hashes, copied, target })
 }
 
 /// Adds the models to the scene.

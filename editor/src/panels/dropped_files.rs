@@ -74,6 +74,8 @@ pub struct DroppedModels {
     pub sounds: Vec<String>,
     /// The hashes of the models, as the script names them.
     pub hashes: Vec<(String, u64)>,
+    /// Names of the files that were copied into the folder of the scene for them; `None` where none was.
+    pub copied: Option<String>,
     /// The scene that gets them.
     pub target: JobScene,
 }
@@ -100,6 +102,8 @@ pub struct UnknownModels {
     pub sounds: Vec<String>,
     /// The hashes of the models, as the script names them.
     pub hashes: Vec<(String, u64)>,
+    /// Names of the files that were copied into the folder of the scene for them; `None` where none was.
+    pub copied: Option<String>,
     /// The scene that gets them.
     pub target: JobScene,
 }

@@ -26,8 +26,8 @@ pub(super) fn add(workspace: &mut Workspace, unknown: UnknownModels) -> Option<E
         unknown.models.iter().map(|(_, name)| known(workspace, name, unknown.is_role)).collect();
     match known {
         Some(models) => {
-            let UnknownModels { place, sounds, hashes, target, .. } = unknown;
-            add_known(workspace, &DroppedModels { models, place, sounds, hashes, target })
+            let UnknownModels { place, sounds, hashes, copied, target, .. } = unknown;
+            add_known(workspace, &DroppedModels { models, place, sounds, hashes, copied, target })
         }
         None => Some(Effect::LookAtModels(Box::new(unknown))),
     }
@@ -38,7 +38,7 @@ pub(super) fn add(workspace: &mut Workspace, unknown: UnknownModels) -> Option<E
 /// one before.
 pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> Option<Effect> {
     if target_of(workspace) != dropped.target {
-        workspace.say(MessageSeverity::Warning, OTHER_SCENE);
+        workspace.say(MessageSeverity::Warning, other_scene(dropped.copied.as_deref()));
         return None;
     }
     let is_held = |model: &DroppedModel| model.form != ModelForm::Figure;
@@ -123,8 +123,15 @@ fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Optio
     effect
 }
 
-/// The message when the answer of a job is for a scene that is not shown any more.
-pub(super) const OTHER_SCENE: &str = "The scene is not open any more: its files were not added";
+/// Returns the message when the answer of a job is for a scene that is not shown any more. `copied` names the files that were copied for it, if there
+/// are any.
+pub(super) fn other_scene(copied: Option<&str>) -> String {
+    let text = "The scene is not open any more: its files were not added";
+    match copied {
+        None => text.to_owned(),
+        Some(names) => format!("{text}, but they were copied into its folder: {names}"),
+    }
+}
 
 /// Returns the scene that is shown.
 pub(super) fn target_of(workspace: &Workspace) -> JobScene {

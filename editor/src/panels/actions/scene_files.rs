@@ -1,7 +1,7 @@
 //! Files that the scene gets: dropped or chosen ones, and those that were missing. What is outside of its folder, also through links, is copied into
 //! it first.
 
-use super::added_files::{OTHER_SCENE, target_of};
+use super::added_files::{other_scene, target_of};
 use super::scene_text::step;
 use super::{added_files, files};
 use crate::panels::dialogs::{CopyQuestion, MissingQuestion};
@@ -51,9 +51,10 @@ pub(in crate::panels) fn answered(
     wanted: Box<WantedFiles>,
     copied: usize,
 ) -> Option<Effect> {
+    let copies = copied_names(&wanted.files, copied);
     let is_here = folder_of_scene(workspace).as_ref() == Some(&wanted.files.folder);
     if !is_here || target_of(workspace) != wanted.target {
-        workspace.say(MessageSeverity::Warning, OTHER_SCENE);
+        workspace.say(MessageSeverity::Warning, other_scene(copies.as_deref()));
         return None;
     }
     if !wanted.files.are_inside() {
@@ -61,19 +62,12 @@ pub(in crate::panels) fn answered(
         return None;
     }
     let before = workspace.status.said();
-    let effect = use_files(workspace, &wanted);
-    if copied > 0 {
+    let effect = use_files(workspace, &wanted, copies.as_deref());
+    if let Some(names) = copies {
         // That message has the reason why the files were not used.
         let is_refused = effect.is_none() && workspace.status.said() > before;
         let refusal = workspace.status.last().filter(|_| is_refused).map(|message| message.text.clone());
-        let files = wanted.files.files.iter().filter(|file| file.written > 0);
-        let names: Vec<&str> = files.filter_map(|file| file.name.as_deref()).collect();
-        let more = match copied.saturating_sub(names.len()) {
-            0 => String::new(),
-            1 => " and one more file".to_owned(),
-            more => format!(" and {more} more files"),
-        };
-        let text = format!("Copied {}{more} into the folder of the scene", names.join(", "));
+        let text = format!("Copied {names} into the folder of the scene");
         match refusal {
             None => workspace.say(MessageSeverity::Info, format!("{text}; Undo leaves the copies")),
             Some(reason) => {
@@ -85,17 +79,31 @@ pub(in crate::panels) fn answered(
     effect
 }
 
+/// Returns the names of the files that were copied into the folder of the scene, and the number of those that they need; `None` where no file was
+/// written.
+fn copied_names(files: &SceneFiles, written: usize) -> Option<String> {
+    let copies = files.files.iter().filter(|file| file.written > 0);
+    let names: Vec<&str> = copies.filter_map(|file| file.name.as_deref()).collect();
+    let more = match written.saturating_sub(names.len()) {
+        0 => String::new(),
+        1 => " and one more file".to_owned(),
+        more => format!(" and {more} more files"),
+    };
+    (written > 0).then(|| format!("{}{more}", names.join(", ")))
+}
+
 /// Copies files after the user agreed.
 pub(super) fn copy(workspace: &mut Workspace, wanted: Box<WantedFiles>) -> Effect {
     workspace.prompts.pop();
     Effect::CopyFiles(wanted)
 }
 
-/// Uses files that are in the folder of the scene.
-fn use_files(workspace: &mut Workspace, wanted: &WantedFiles) -> Option<Effect> {
+/// Uses files that are in the folder of the scene; `copies` names those that were copied there.
+fn use_files(workspace: &mut Workspace, wanted: &WantedFiles, copies: Option<&str>) -> Option<Effect> {
     let WantedFiles { files: SceneFiles { folder, files }, used, target, .. } = wanted;
     let hashes: Vec<(String, u64)> =
         files.iter().filter_map(|file| file.name.clone().zip(file.hash)).collect();
+    let copied = copies.map(str::to_owned);
     let named =
         |kind| files.iter().filter(move |file| file.kind == kind).filter_map(|file| file.name.clone());
     match used {
@@ -103,14 +111,15 @@ fn use_files(workspace: &mut Workspace, wanted: &WantedFiles) -> Option<Effect> 
             let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
             let sounds = named(SceneFileKind::Sound).collect();
             let (place, target) = (DropPlace::clone(place), target.clone());
-            let unknown = UnknownModels { models, is_role: None, place, sounds, hashes, target };
+            let unknown = UnknownModels { models, is_role: None, place, sounds, hashes, copied, target };
             added_files::add(workspace, unknown)
         }
         FileUse::Role | FileUse::Prop => {
             let models = named(SceneFileKind::Model).map(|name| (folder.join(&name), name)).collect();
             let (is_role, place) = (Some(*used == FileUse::Role), DropPlace::Nowhere);
             let (sounds, target) = (Vec::new(), target.clone());
-            added_files::add(workspace, UnknownModels { models, is_role, place, sounds, hashes, target })
+            let unknown = UnknownModels { models, is_role, place, sounds, hashes, copied, target };
+            added_files::add(workspace, unknown)
         }
         FileUse::Find => name_found(workspace, files),
     }
