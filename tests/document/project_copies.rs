@@ -1,4 +1,4 @@
-//! A save of a project in another folder tells how much is done, and leaves nothing behind where it is stopped or fails.
+//! A save of a project in another folder reports how much is done, and removes what it wrote where it is stopped or fails.
 
 use super::project_moved::{NEEDED, files, whole_project};
 use super::projects::{END, is_read, replaced_in};
@@ -36,7 +36,7 @@ impl Copying {
         self.other.join("foxes.meproj")
     }
 
-    /// Lets the save go on. Returns why nothing was saved.
+    /// Releases the save. Returns why nothing was saved.
     fn not_saved(&mut self) -> NotSaved {
         self.held.release();
         self.document.wait_for_reply(|reply| match reply {

@@ -110,7 +110,7 @@ fn a_text_that_cannot_be_written_is_reported_and_the_work_is_offered_after_a_kil
     fs::create_dir(folder.join("end.xml")).expect("a folder");
     document.send(DocumentMessage::Save(SaveOrder::own(None)));
     document.wait_for_reply(|reply| match reply {
-        DocumentReply::NotSaved(_, NotSaved::Failed(_) | NotSaved::Changed) => Some(()),
+        DocumentReply::NotSaved(_, NotSaved::Failed(_) | NotSaved::Changed(_)) => Some(()),
         DocumentReply::Saved(saved) => panic!("{saved:?}"),
         _ => None,
     });

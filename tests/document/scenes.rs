@@ -255,7 +255,7 @@ fn a_script_that_another_program_changed_is_not_overwritten_without_a_question()
         DocumentReply::NotSaved(_, reason) => Some(reason.clone()),
         _ => None,
     });
-    assert_eq!(reason, NotSaved::Changed);
+    assert!(matches!(reason, NotSaved::Changed(_)));
     assert_eq!(fs::read_to_string(&path).expect("a file"), "another");
     document.send(DocumentMessage::Save(SaveOrder { anyway: true, ..SaveOrder::own(None) }));
     document.wait_for_reply(|reply| matches!(reply, DocumentReply::Saved(_)).then_some(()));

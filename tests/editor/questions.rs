@@ -10,7 +10,7 @@ use dragonfly::panels::dialogs::{
 use dragonfly::panels::dropped_files::{FileUse, JobScene, WantedFiles};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{
-    Decision, DocumentMessage, HistoryView, MissingFile, Offer, OutdatedEdits, OutdatedEditsChoice,
+    Decision, DocumentMessage, FileView, HistoryView, MissingFile, Offer, OutdatedEdits, OutdatedEditsChoice,
     SaveOrder, SaveTo, SceneFile, SceneFileKind, SceneFiles, Source, Then,
 };
 use dragonfly_kit::document::fixture;
@@ -61,7 +61,7 @@ fn questions() -> Vec<(&'static str, Question)> {
         std::iter::once(first).chain(more).collect()
     };
     let recover = |offers, lost| -> Question { RecoverQuestion { offers, lost }.into() };
-    let changed = |file, order| -> Question { ChangedQuestion { file, order }.into() };
+    let changed = |file, order| -> Question { ChangedQuestion { file, path: None, order }.into() };
     let plan = |lines, order| -> Question { PlanQuestion { lines, order }.into() };
     let place = |copy| -> Question { PlaceQuestion { copy, then: None }.into() };
     let unsaved = |then| -> Question { UnsavedQuestion { then }.into() };
@@ -271,7 +271,7 @@ fn each_button_for_unsaved_work_applies_to_the_document_that_is_shown() {
 #[test]
 fn an_open_question_receives_all_keys_and_the_next_question_follows() {
     let mut state = bench(UnsavedQuestion { then: Then::Quit }.into()).state;
-    state.ask(ChangedQuestion { file: FileState::Changed, order: None }.into());
+    state.ask(ChangedQuestion { file: FileState::Changed, path: None, order: None }.into());
     // The same question is not asked twice.
     state.ask(UnsavedQuestion { then: Then::Quit }.into());
     assert_eq!(state.read().prompts.questions().len(), 2);
@@ -284,7 +284,7 @@ fn an_open_question_receives_all_keys_and_the_next_question_follows() {
 #[test]
 fn a_file_that_changed_on_disk_can_be_loaded_with_the_unsaved_changes() {
     for order in [None, Some(SaveOrder::own(None))] {
-        let mut bench = bench(ChangedQuestion { file: FileState::Changed, order }.into());
+        let mut bench = bench(ChangedQuestion { file: FileState::Changed, path: None, order }.into());
         let mut view = bench.state.read().view.cloned().expect("a model");
         view.history = Arc::new(HistoryView { saved: false, ..(*view.history).clone() });
         bench.state.show(view);
@@ -295,6 +295,21 @@ fn a_file_that_changed_on_disk_can_be_loaded_with_the_unsaved_changes() {
         let reload = Effect::File(FileAction::Send(DocumentMessage::Reload));
         assert_eq!(harness.state().effects, [reload]);
         assert_eq!(harness.state().state.read().question(), None);
+    }
+}
+
+#[test]
+fn a_text_of_a_project_that_changed_on_disk_is_the_file_that_the_question_names() {
+    for (path, name) in [("/foxes/main.xml", "main.xml"), ("/foxes/Fox.glb", "Fox.glb")] {
+        let (path, order) = (Some(path.into()), Some(SaveOrder::own(None)));
+        let mut bench = bench(ChangedQuestion { file: FileState::Changed, path, order }.into());
+        let mut view = bench.state.read().view.cloned().expect("a model");
+        view.file = Arc::new(FileView { title: "Fox.glb".to_owned(), ..(*view.file).clone() });
+        bench.state.show(view);
+        let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        assert!(harness.query_by_label(&format!("{name} was changed on disk")).is_some());
+        assert_eq!(harness.query_by_label_contains("It belongs to Fox.glb").is_some(), name == "main.xml");
     }
 }
 
@@ -342,7 +357,7 @@ fn edits_of_all_changed_models_are_applied_or_removed_as_the_user_chooses() {
 
 #[test]
 fn without_unsaved_changes_there_is_nothing_to_apply_to_a_changed_file() {
-    let bench = bench(ChangedQuestion { file: FileState::Changed, order: None }.into());
+    let bench = bench(ChangedQuestion { file: FileState::Changed, path: None, order: None }.into());
     let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
     harness.run_steps(4);
     assert!(harness.query_by_label("Load and apply my changes").is_none());

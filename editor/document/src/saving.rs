@@ -78,8 +78,8 @@ pub struct SavedFile {
 pub enum NotSaved {
     /// The document has no file yet: the user chooses one.
     NoFile,
-    /// Another program changed the file.
-    Changed,
+    /// Another program changed this file: the one of the document, or one next to it that belongs to the document.
+    Changed(PathBuf),
     /// A file of this name exists already.
     Exists(PathBuf),
     /// The whole file would be replaced, and lose what the program does not read: the user decides.
@@ -116,7 +116,7 @@ impl From<FailedWrite> for FailedSave {
 impl From<SaveFailure> for NotSaved {
     fn from(failure: SaveFailure) -> Self {
         match failure {
-            SaveFailure::Changed(_) => Self::Changed,
+            SaveFailure::Changed(path) => Self::Changed(path),
             SaveFailure::Exists(path) => Self::Exists(path),
             SaveFailure::Cancelled(stay) => Self::Cancelled(stay),
             other @ SaveFailure::Other(_) => Self::Failed(other.to_string()),

@@ -109,8 +109,8 @@ impl SaveFailure {
         }
     }
 
-    /// Returns the failure to write a file next to the main one into another folder. Where that file exists or changed, the user is told `reason`: the
-    /// questions are about the main one.
+    /// Returns the failure to write a file next to the main one into another folder. Where that file exists or changed, the failure is `reason`:
+    /// the questions to the user are about the main one.
     pub(super) fn of_copy(self, reason: String) -> Self {
         match self {
             Self::Changed(_) | Self::Exists(_) => Self::Other(reason),

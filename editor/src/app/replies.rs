@@ -72,7 +72,9 @@ pub(super) fn show(interface: &mut Interface, reply: DocumentReply) {
         }
         DocumentReply::ChangedModels(edits) => state.ask(ChangedModelsQuestion { edits }.into()),
         DocumentReply::MayQuit => interface.effects.push(Effect::File(FileAction::QuitNow)),
-        DocumentReply::FileChanged(file) => state.ask(ChangedQuestion { file, order: None }.into()),
+        DocumentReply::FileChanged(file) => {
+            state.ask(ChangedQuestion { file, path: None, order: None }.into())
+        }
         DocumentReply::Offers(offers) => state.ask_to_recover(offers),
         DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
         DocumentReply::NothingToOffer => {

@@ -30,11 +30,11 @@ const TABLE: &[QuestionRow] = &[
     ("unsaved", "crowded", || {
         UnsavedQuestion { then: Then::Open(Source::File(long("another file").into())) }.into()
     }),
-    ("changed", "typical", || ChangedQuestion { file: FileState::Changed, order: None }.into()),
+    ("changed", "typical", || ChangedQuestion { file: FileState::Changed, path: None, order: None }.into()),
     ("changed", "crowded", || {
-        ChangedQuestion { file: FileState::Changed, order: Some(SaveOrder::own(None)) }.into()
+        ChangedQuestion { file: FileState::Changed, path: None, order: Some(SaveOrder::own(None)) }.into()
     }),
-    ("changed", "gone", || ChangedQuestion { file: FileState::Missing, order: None }.into()),
+    ("changed", "gone", || ChangedQuestion { file: FileState::Missing, path: None, order: None }.into()),
     ("exists", "typical", || exists("/home/mara/models/Fox 2.glb")),
     ("exists", "crowded", || exists(&long("another file"))),
     ("plan", "typical", || plan(lines(4), Some(SaveOrder::own(None)))),

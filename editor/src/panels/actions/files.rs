@@ -144,8 +144,9 @@ pub(in crate::panels) fn not_saved(
         NotSaved::NoFile => {
             return Some(Effect::File(FileAction::Where { copy: false, then: order.then }));
         }
-        NotSaved::Changed => {
-            ask(workspace, ChangedQuestion { file: FileState::Changed, order: Some(order) }.into())
+        NotSaved::Changed(path) => {
+            let (path, order) = (Some(path), Some(order));
+            ask(workspace, ChangedQuestion { file: FileState::Changed, path, order }.into())
         }
         NotSaved::Exists(path) => ask(workspace, ExistsQuestion { path, order }.into()),
         NotSaved::Rewritten => ask(workspace, RewriteQuestion { order }.into()),

@@ -1,4 +1,4 @@
-//! The question when another program changed or removed the file that is open.
+//! The question when another program changed or removed the file that is open, or one that belongs to it.
 
 use super::ask::{Ask, Tone};
 use super::kind::QuestionKind;
@@ -6,6 +6,7 @@ use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{DocumentMessage, SaveOrder};
 use dragonfly_store::FileState;
+use std::path::{Path, PathBuf};
 
 #[derive(Clone, Copy)]
 enum ChangedChoice {
@@ -16,11 +17,13 @@ enum ChangedChoice {
     Cancel,
 }
 
-/// Another program changed or removed the file.
+/// Another program changed or removed the file that is open, or one that belongs to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChangedQuestion {
     /// State of the file.
     pub file: FileState,
+    /// The file that changed, for example a script of a project; `None` for the one that is open.
+    pub path: Option<PathBuf>,
     /// The save that this blocks.
     pub order: Option<SaveOrder>,
 }
@@ -37,7 +40,9 @@ impl QuestionKind for ChangedQuestion {
         let order = self.order.as_ref();
         let gone = self.file == FileState::Missing;
         let then = order.and_then(|order| order.then.clone());
-        ask.title(&if gone { format!("{title} is gone") } else { format!("{title} was changed on disk") });
+        let beside = self.path.as_deref().map(file_name).filter(|name| *name != title);
+        let name = beside.as_ref().unwrap_or(&title);
+        ask.title(&if gone { format!("{name} is gone") } else { format!("{name} was changed on disk") });
         ask.says(if gone {
             "Another program moved or deleted the file. The open document is still complete."
         } else if order.is_some() {
@@ -45,6 +50,9 @@ impl QuestionKind for ChangedQuestion {
         } else {
             "Another program changed the file after it was opened."
         });
+        if beside.is_some() {
+            ask.adds(format!("It belongs to {title}, whose files are reloaded or overwritten together."));
+        }
         if !saved && !gone {
             ask.adds("Your changes are not saved. They can be applied to the new version: bones and takes are found by name, and what does not fit is listed. Reloading discards them; a copy stays in the bin of the autosave folder for a while.");
         }
@@ -106,4 +114,9 @@ impl QuestionKind for ChangedQuestion {
         };
         ask.requests.push(request);
     }
+}
+
+/// Returns the name of a file without its folder.
+fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
