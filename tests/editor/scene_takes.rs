@@ -58,7 +58,7 @@ fn the_takes_of_the_selected_role_are_listed_and_a_double_click_adds_one_at_the_
 }
 
 #[test]
-fn a_take_dropped_onto_a_lane_plays_from_the_snapped_time() {
+fn a_take_dropped_onto_a_lane_plays_from_the_snapped_time_fades_over_the_clip_before_it_and_is_selected() {
     let mut window = window_of("anna");
     let from = row(&mut window, "Walk");
     let lanes = Lanes::of(&window);
@@ -73,6 +73,12 @@ fn a_take_dropped_onto_a_lane_plays_from_the_snapped_time() {
         [r#"<play who="ben" take="Walk" begin="3.5" fade-in="0.158"/>"#]
     );
     assert_eq!(window.state().steps(), (1, 1));
+    // It overlaps the walk before it, which fades into it, and it is what commands change next.
+    let editing = window.state().state.read().scene_editing;
+    let [new] = editing.actions() else { panic!("{:?} are selected", editing.actions()) };
+    let (_, bar) = editing.lanes().bar_of(*new).expect("a bar");
+    assert_eq!((bar.kind, bar.begin), ("play", StageTime::from_seconds(3.5)));
+    assert_eq!(editing.things(), ["ben".into()]);
 }
 
 #[test]

@@ -24,6 +24,13 @@ pub(in crate::panels) fn counterpart(workspace: &Workspace, command: &'static Co
 pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneRequest) -> Option<Effect> {
     match request {
         SceneRequest::Text(change) => return change_text(workspace, &change),
+        SceneRequest::AddActions(change) => {
+            let effect = change_text(workspace, &change);
+            if effect.is_some() {
+                workspace.scene.await_actions(change.text.into());
+            }
+            return effect;
+        }
         SceneRequest::Typed(change) => {
             let effect = change_text(workspace, &change);
             workspace.scene.set_typing(change.gesture);

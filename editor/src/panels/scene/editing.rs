@@ -1,6 +1,7 @@
 //! The scene as it is edited: what is selected, hidden and locked, its lanes, and the newest text.
 
 use super::action_selection::ActionSelection;
+use super::follow::new_actions;
 use super::line_editing::{LineEditing, MarkedThings};
 use super::newest_text::NewestText;
 use super::renamed_things::RenamedThings;
@@ -44,6 +45,8 @@ pub struct SceneEditing {
     renaming: Option<Box<str>>,
     /// The things that are selected as soon as the script has them.
     awaited: Vec<Box<str>>,
+    /// The text whose new actions are selected as soon as it is shown.
+    awaited_actions: Option<Arc<str>>,
     ripple: bool,
     /// The part of time that the timeline shows; `None` for all.
     window: Option<TimeWindow>,
@@ -71,6 +74,7 @@ impl Default for SceneEditing {
             marks: 0,
             renaming: None,
             awaited: Vec::new(),
+            awaited_actions: None,
             ripple: true,
             window: None,
             shown: None,
@@ -295,6 +299,11 @@ impl SceneEditing {
         self.awaited = things;
     }
 
+    /// Selects the actions that this text has more than the one that is shown, as soon as it is shown.
+    pub(in crate::panels) fn await_actions(&mut self, text: Arc<str>) {
+        self.awaited_actions = Some(text);
+    }
+
     pub(in crate::panels) fn set_ripple(&mut self, ripple: bool) {
         self.ripple = ripple;
     }
@@ -304,6 +313,7 @@ impl SceneEditing {
         Self {
             renaming: None,
             awaited: Vec::new(),
+            awaited_actions: None,
             script: NewestText::default(),
             project: NewestText::default(),
             typing: None,
@@ -336,7 +346,11 @@ impl SceneEditing {
         if self.shown.as_ref().is_some_and(is_same) {
             return renamed;
         }
+        let mut added = Vec::new();
         if let Some((old, _)) = self.shown.as_ref().filter(|(old, _)| !Arc::ptr_eq(old, &script)) {
+            if self.awaited_actions.take_if(|text| **text == **script.tree().text()).is_some() {
+                added = new_actions(old, &script);
+            }
             self.actions.follow(old, &script);
             renamed = RenamedThings::between(old, &script);
             self.things.rename(&renamed);
@@ -350,6 +364,9 @@ impl SceneEditing {
         }
         self.lanes = Arc::new(SceneLanes::new(&script, &plan));
         self.shown = Some((script, plan));
+        if !added.is_empty() {
+            self.select_actions(&added, Choice::Replace);
+        }
         renamed
     }
 
@@ -421,6 +438,7 @@ impl SceneEditing {
 
     /// Forgets a text that the document refused.
     pub(in crate::panels) fn refused(&mut self) {
+        self.awaited_actions = None;
         self.script.refused();
         self.project.refused();
     }

@@ -7,7 +7,7 @@
 //! ```
 
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::hash::{Hash, Hasher};
 use std::ops::Range;
 
@@ -22,6 +22,14 @@ pub fn follow_actions(old: &StageScript, new: &StageScript, actions: &[usize]) -
     let mut found = Vec::with_capacity(actions.len());
     found.extend(actions.iter().filter_map(|&action| follower.follow(action, &mut matches)));
     found
+}
+
+/// Returns the actions of `new` that none of `old` is, without what contains others.
+pub(super) fn new_actions(old: &StageScript, new: &StageScript) -> Vec<usize> {
+    let all: Vec<usize> = (0..old.actions().len()).collect();
+    let followed: HashSet<usize> = follow_actions(old, new, &all).into_iter().collect();
+    let is_new = |action: &usize| !followed.contains(action) && new.actions()[*action].children.is_empty();
+    (1..new.actions().len()).filter(is_new).collect()
 }
 
 /// The actions of the text itself, in its order: without those of included files.

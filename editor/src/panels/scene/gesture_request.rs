@@ -1,6 +1,6 @@
 //! Gestures of menus and lists: one change of the script, or the reason why it is refused.
 
-use super::{ChangedThings, SceneBase, SceneRequest};
+use super::{ChangedThings, SceneBase, SceneRequest, ScriptChange};
 use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
 use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene};
@@ -15,15 +15,34 @@ pub(in crate::panels) fn gesture_request(
     things: ChangedThings<'_>,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) -> Request {
-    let base = SceneBase::of(scene, context.scene_editing.text(scene));
-    let done = base.and_then(|base| {
-        let text = act(&base.scene())?;
-        Ok(base.step(text, label, things))
-    });
-    Request::Scene(match done {
-        Ok(change) => SceneRequest::Text(change),
-        Err(refusal) => SceneRequest::Refused(refusal.to_string()),
-    })
+    request_of(gesture_step(context, scene, label, things, act).map(SceneRequest::Text))
+}
+
+/// Returns the request that adds actions to the newest script in a step of the history, and selects them.
+pub(in crate::panels) fn add_request(
+    context: &PanelContext<'_>,
+    scene: &SceneView,
+    label: ScriptLabel,
+    things: ChangedThings<'_>,
+    act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
+) -> Request {
+    request_of(gesture_step(context, scene, label, things, act).map(SceneRequest::AddActions))
+}
+
+fn request_of(request: Result<SceneRequest, GestureRefusal>) -> Request {
+    Request::Scene(request.unwrap_or_else(|refusal| SceneRequest::Refused(refusal.to_string())))
+}
+
+fn gesture_step(
+    context: &PanelContext<'_>,
+    scene: &SceneView,
+    label: ScriptLabel,
+    things: ChangedThings<'_>,
+    act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
+) -> Result<ScriptChange, GestureRefusal> {
+    let base = SceneBase::of(scene, context.scene_editing.text(scene))?;
+    let text = act(&base.scene())?;
+    Ok(base.step(text, label, things))
 }
 
 /// Returns the label of a step that moves actions.

@@ -57,6 +57,8 @@ pub enum LineRequest {
 pub enum SceneRequest {
     /// Replaces the text of the script.
     Text(ScriptChange),
+    /// Replaces the text of the script by one with more actions, and selects those.
+    AddActions(ScriptChange),
     /// Replaces the text by what someone types; the gesture is a word.
     Typed(ScriptChange),
     /// Replaces the text of the project by what someone types; the gesture is a word.

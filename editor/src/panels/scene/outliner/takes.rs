@@ -3,7 +3,7 @@
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::request::Request;
-use crate::panels::scene::gesture_request::gesture_request;
+use crate::panels::scene::gesture_request::add_request;
 use crate::panels::scene::{ChangedThings, DraggedTake};
 use crate::panels::style::GRID;
 use crate::panels::theme::Theme;
@@ -87,7 +87,7 @@ fn row(
     if response.double_clicked() {
         let at = context.scene_time();
         let things = ChangedThings::Thing(&thing.id);
-        requests.push(gesture_request(context, scene, ScriptLabel::AddClip, things, |base| {
+        requests.push(add_request(context, scene, ScriptLabel::AddClip, things, |base| {
             add_clip(base, &thing.id, take, at)
         }));
     }

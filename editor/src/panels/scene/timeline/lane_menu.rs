@@ -3,7 +3,7 @@
 use super::bar_menu;
 use super::drag::BarDragging;
 use super::lane_layout::SceneHit;
-use super::menu_entry::gesture;
+use super::menu_entry::{addition, gesture};
 use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
@@ -64,7 +64,7 @@ fn lane_entries(ui: &mut Ui, lane: &SceneLane, sheet: &SceneSheet<'_>, requests:
             }
             egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
                 for take in model.takes() {
-                    gesture(
+                    addition(
                         ui,
                         take.name(),
                         (ScriptLabel::AddClip, ChangedThings::Thing(&lane.name)),
