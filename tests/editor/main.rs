@@ -104,6 +104,7 @@ mod scene_line_picks;
 mod scene_lines;
 mod scene_locked;
 mod scene_loop;
+mod scene_menu;
 mod scene_new;
 mod scene_notes;
 mod scene_outliner;

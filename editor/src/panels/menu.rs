@@ -7,7 +7,8 @@ use super::edit_scope_menu;
 use super::icons::Icon;
 use super::keys_menu;
 use super::request::Request;
-use super::scene::{SceneRequest, add_action_menu};
+use super::scene::SceneRequest;
+use super::scene_menu;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
 pub(super) use super::submenu::{GUTTER, submenu};
@@ -50,7 +51,7 @@ pub fn show(
             });
         });
         if context.scene().is_some() {
-            ui.menu_button("Scene", |ui| scrolled(ui, |ui| scene(ui, context, requests)));
+            ui.menu_button("Scene", |ui| scrolled(ui, |ui| scene_menu::show(ui, context, requests)));
         }
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
@@ -65,16 +66,6 @@ pub fn show(
             }
         });
     });
-}
-
-/// Draws the menu of scenes.
-fn scene(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    if let Some(scene) = context.scene() {
-        let selected = context.scene_editing.things().last().map(|thing| &**thing);
-        add_action_menu(ui, context, scene, selected, requests);
-        ui.separator();
-    }
-    list(ui, context, &[Category::Scene], requests);
 }
 
 /// Draws a long menu, which scrolls in a window that is lower than it.
@@ -198,14 +189,15 @@ const GROUP_ENDS: &[Id] = &[
     Id::Retarget,
     // Scene
     Id::ProjectFromScene,
-    Id::AddSceneSound,
+    Id::SceneLift,
+    Id::ShowAllThings,
+    Id::LockThings,
     Id::ToggleGroundSnap,
-    Id::PickFocus,
     Id::NextShot,
     Id::ClipEndToPlayhead,
-    Id::NextAction,
-    Id::PasteActions,
-    Id::SceneLift,
+    Id::NextEdge,
+    Id::SelectAllActions,
+    Id::LoopWhole,
 ];
 
 /// Draws an entry for each selection set, which selects its bones.
@@ -374,6 +366,8 @@ fn view(
 
 /// Draws the choice of the camera through which the viewport looks at a scene.
 pub(super) fn look_through(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    // On one line, however wide the keys of a command are.
+    ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
     let through = context.through;
     item(ui, context, Id::LookFreely, *through == ThroughCamera::Free, requests);
     item(ui, context, Id::LookThroughShot, *through == ThroughCamera::Shot, requests);

@@ -79,6 +79,7 @@ pub mod retarget_source;
 mod root_motion;
 pub mod ruler;
 pub mod scene;
+mod scene_menu;
 mod search_field;
 mod selected_bones;
 pub mod selection_sets;

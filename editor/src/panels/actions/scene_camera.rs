@@ -26,8 +26,10 @@ pub(in crate::panels) fn look_through(workspace: &mut Workspace, through: Throug
     let is_free = *workspace.camera.through() == ThroughCamera::Free;
     if !is_free && seen(workspace).is_none() {
         workspace.camera.set_through(ThroughCamera::Free);
-        workspace
-            .say(MessageSeverity::Info, "The scene has no camera; \"Add camera\" in the menu Scene adds one");
+        workspace.say(
+            MessageSeverity::Info,
+            "The scene has no camera; \"Add camera\" in the menu Scene > Add adds one",
+        );
     }
 }
 

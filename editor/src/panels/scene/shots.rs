@@ -45,7 +45,7 @@ impl Panel for ShotsPanel {
         let lanes = context.scene_editing.lanes();
         let shots = shots_of(lanes);
         if shots.is_empty() {
-            let hint = "Select a camera and choose \"Cut to this camera here\" in the menu Scene";
+            let hint = "Select a camera and choose \"Cut to this camera here\" in the menu Scene > Camera";
             return widgets::empty(ui, "The scene has no shots", hint);
         }
         let now = shot_at(shots, context.scene_time());

@@ -79,7 +79,7 @@ fn cameras(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
     let is_through = *context.through != ThroughCamera::Free;
     let response = icon_button(ui, Icon::Camera, "Look through", is_through).on_hover_text("Look through");
     egui::Popup::menu(&response).show(|ui| {
-        ui.set_width(230.0);
+        ui.set_min_width(230.0);
         menu::look_through(ui, context, requests);
     });
 }

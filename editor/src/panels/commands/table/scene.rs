@@ -23,7 +23,7 @@ commands! {
     LineAsPath => When::Scene, "Use line as path", [], "Adds a path along the selected line, which roles can follow", scene_lines::use_as_path;
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking; cameras, props, lights and effects can follow it too", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected lines of the project", scene_lines::delete;
-    SceneRename => When::ThingOrLine, "Rename thing or line", [], "Renames the selected thing wherever the script names it, or the selected line", |w| { scene::rename(w); None };
+    SceneRename => When::ThingOrLine, "Rename", [], "Renames the selected thing wherever the script names it, or the selected line", |w| { scene::rename(w); None };
     HideThings => When::Thing, "Hide things", [], "Hides the selected things in the viewport; movies show them", |w| { scene::hide(w, false); None };
     HideOtherThings => When::Thing, "Hide other things", [], "Hides all things except the selected ones", |w| { scene::hide(w, true); None };
     ShowAllThings => When::Scene, "Show all things", [], "Shows and selects all hidden things", |w| { scene::show_all(w); None };
@@ -50,9 +50,9 @@ commands! {
     CutActions => When::Clip, "Cut actions", [], "Copies the selected actions and deletes them", scene_clipboard::cut;
     CopyActions => When::Clip, "Copy actions", [], "Copies the selected actions; Paste inserts them at the playhead, also for another role", scene_clipboard::copy;
     PasteActions => When::Scene, "Paste actions", [], "Pastes the copied actions at the playhead: for the selected role or prop, or, while an action is selected, for the things they were copied from", |_| Some(Effect::PastePose { mirrored: false });
-    SceneDuplicate => When::SceneItem, "Duplicate action, thing or line", [], "Duplicates the selected actions after the last of them ends, or the selected thing or line", scene_clips::duplicate;
-    SceneDelete => When::SceneItem, "Delete action, things or line", [], "Deletes the selected actions, the selected things with the actions that name them, the selected lines, or the point of a path or line that was clicked last; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
-    SceneLift => When::Clip, "Delete action and leave a gap", [], "Deletes the selected actions; what follows stays where it is", |w| scene_clips::delete(w, true);
+    SceneDuplicate => When::SceneItem, "Duplicate", [], "Duplicates the selected actions after the last of them ends, or the selected thing or line", scene_clips::duplicate;
+    SceneDelete => When::SceneItem, "Delete", [], "Deletes the selected actions, the selected things with the actions that name them, the selected lines, or the point of a path or line that was clicked last; what follows in a sequence moves up", |w| scene_clips::delete(w, false);
+    SceneLift => When::Clip, "Delete and leave a gap", [], "Deletes the selected actions; what follows stays where it is", |w| scene_clips::delete(w, true);
     ToggleSceneRipple => When::Always, "Ripple", [], "Lets what follows in a sequence move along with an action that is dragged; hold 2 for the other way", |w| { scene::toggle_ripple(w); None };
     EditSceneModel => When::Thing, "Edit takes and bones", [], "Opens the model of the selected thing, in place: its takes and bones", |w| { let thing = w.scene.things().last().cloned()?; scene::edit_model(w, &thing) };
     BackToScene => When::Always, "Back to scene", [], "Shows the scene again whose model is edited", scene::show_scene;
