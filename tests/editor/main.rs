@@ -88,6 +88,7 @@ mod saved_pending;
 mod scene_attach;
 mod scene_bar_drags;
 mod scene_bench;
+mod scene_box;
 mod scene_camera;
 mod scene_commands;
 mod scene_copies;
