@@ -101,6 +101,7 @@ mod scene_gizmo;
 mod scene_ground;
 mod scene_keys;
 mod scene_left;
+mod scene_line_options;
 mod scene_line_picks;
 mod scene_lines;
 mod scene_locked;

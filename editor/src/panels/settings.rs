@@ -95,6 +95,8 @@ pub struct ToolSettings {
     pub ground: bool,
     /// Whether a line that is drawn is shown from the playhead on; otherwise always.
     pub lines_from_playhead: bool,
+    /// The color of a line that is drawn: red, green and blue, sRGB.
+    pub line_color: [u8; 3],
 }
 
 /// IK settings that are remembered.
@@ -180,6 +182,8 @@ impl Default for ToolSettings {
             ik: IkSettings::default(),
             ground: false,
             lines_from_playhead: true,
+            // That of lines without a color.
+            line_color: [0xff, 0x40, 0x40],
         }
     }
 }

@@ -8,7 +8,8 @@ use crate::control::line::{DrawnStroke, LineAnswer, LineSurface, LineUse};
 use crate::control::{Button, InputEvent};
 use crate::panels::request::Effect;
 use crate::panels::scene::{
-    ChangedThings, LineEraser, LineRequest, NewThing, begin_text, line_name, line_named,
+    ChangedThings, LINE_COLORS, LineEraser, LineRequest, NewThing, begin_text, color_text, line_name,
+    line_named,
 };
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
@@ -106,6 +107,10 @@ pub(super) fn perform(workspace: &mut Workspace, request: LineRequest) -> Option
             workspace.scene.select_line(Some(line));
             use_as_path(workspace)
         }
+        LineRequest::NewColor(color) => {
+            workspace.settings.tools.line_color = color;
+            None
+        }
     }
 }
 
@@ -142,6 +147,10 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
             vec![on("bone"), ("of".to_owned(), of)]
         }
     };
+    let color = workspace.settings.tools.line_color;
+    if color != LINE_COLORS[0].rgb {
+        attributes.push(("color".to_owned(), color_text(color)));
+    }
     let from = workspace.read().scene_time();
     let script = scene.script.as_ref().filter(|_| workspace.settings.tools.lines_from_playhead);
     let begin = script.filter(|_| from > StageTime::ZERO).map(|script| begin_text(from, script.rate()));

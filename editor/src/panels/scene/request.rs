@@ -50,6 +50,8 @@ pub enum LineRequest {
     Delete(Box<str>),
     /// Adds a path along a line to the cast.
     UseAsPath(Box<str>),
+    /// Sets the color of lines that are drawn from now on: red, green and blue, sRGB.
+    NewColor([u8; 3]),
 }
 
 /// A request about a scene.

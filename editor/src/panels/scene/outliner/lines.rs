@@ -6,7 +6,9 @@ use crate::panels::icons::Icon;
 use crate::panels::menu::submenu;
 use crate::panels::name_field::{NameField, NameFieldEnd};
 use crate::panels::request::Request;
-use crate::panels::scene::{LineRequest, SceneRequest, line_name, line_named};
+use crate::panels::scene::{
+    LINE_COLORS, LineColor, LineRequest, SceneRequest, color_text, line_name, line_named,
+};
 use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -14,16 +16,6 @@ use dragonfly_anim::stage::line::DrawnLine;
 use dragonfly_document::bones::Choice;
 use egui::accesskit::Role;
 use egui::{Color32, Rect, RichText, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
-
-/// The colors that the menu of a line offers.
-const COLORS: [(&str, &str); 6] = [
-    ("Red", "#ff4040"),
-    ("Orange", "#ff9020"),
-    ("Yellow", "#ffe040"),
-    ("Green", "#40c060"),
-    ("Blue", "#4080ff"),
-    ("White", "#ffffff"),
-];
 
 /// The section of the list that has the lines.
 #[derive(Debug, Default)]
@@ -162,9 +154,9 @@ impl LineRows {
             self.typed = Some((name.into(), NameField::of(name)));
         }
         submenu(ui, "Color", |ui| {
-            for (title, color) in COLORS {
+            for LineColor { title, rgb } in LINE_COLORS {
                 if entry(ui, title) {
-                    send(requests, LineRequest::Set(name.into(), "color", Some(color.to_owned())));
+                    send(requests, LineRequest::Set(name.into(), "color", Some(color_text(rgb))));
                 }
             }
         });
