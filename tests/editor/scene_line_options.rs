@@ -26,7 +26,7 @@ fn a_bar_shows_the_options_and_keys_while_lines_are_drawn() {
         assert!(window.query_by_label(label).is_some(), "{label}");
     }
     assert!(window.query_by_label_contains("Ctrl + drag erases").is_some());
-    // The bar is inside the viewport, beside the tools.
+    // The bar is inside the viewport.
     let viewport = window.get_by_label("Viewport").rect();
     let keys = window.get_by_label_contains("Drag: freehand").rect();
     assert!(viewport.contains_rect(keys), "{keys} in {viewport}");

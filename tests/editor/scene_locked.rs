@@ -91,7 +91,7 @@ fn no_entry_of_the_menus_of_bars_and_lanes_changes_a_locked_thing() {
         (RUN, true, &["Speed", "2×"]),
         (RUN, true, &["Repeat", "2×"]),
         (RUN, true, &["Wait after it"]),
-        (MOVE, false, &["Add take at the playhead", "Run"]),
+        (MOVE, false, &["Add clip at the playhead", "Run"]),
         (MOVE, false, &["Attach at the playhead to", "anna", "The whole"]),
         (MOVE, false, &["Add action", "Place here"]),
     ];

@@ -126,7 +126,7 @@ fn a_drag_of_one_of_several_selected_actions_moves_all_in_one_step() {
             r#"<title text="The End" begin="4.5" dur="1" fade-in="0.5"/>"#
         ]
     );
-    assert_eq!((window.state().steps(), last_label(&window)), ((1, 1), "Move clips"));
+    assert_eq!((window.state().steps(), last_label(&window)), ((1, 1), "Move actions"));
     assert_eq!(actions(&window), [TITLE, MOVE], "they stay selected");
     window.state_mut().change(Change::Undo);
     window.run_steps(2);

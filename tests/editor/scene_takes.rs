@@ -3,15 +3,18 @@
 use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::scene_timeline::Lanes;
 use crate::workbench::{Window, move_to, press, release};
-use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::scene::timeline::events_of;
+use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::data::Take;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::bones::Choice;
 use egui::{Key, Modifiers, Pos2, pos2};
 use egui_kittest::kittest::Queryable;
 
+const LOOKS: usize = 5;
+const RUN: usize = 6;
 const MOVE: usize = 7;
 const TITLE: usize = 10;
 
@@ -112,4 +115,23 @@ fn events_of_a_take_count_from_its_start() {
         events_of(&take).into_iter().map(|event| (event.name, event.after)).collect();
     let seconds = StageTime::from_seconds;
     assert_eq!(events, [("fire".to_owned(), seconds(0.25)), ("step".to_owned(), seconds(0.5))]);
+}
+
+#[test]
+fn steps_call_bars_that_play_takes_clips_and_all_others_actions() {
+    for (actions, label) in [
+        (vec![LOOKS], "Move clip"),
+        (vec![LOOKS, RUN], "Move clips"),
+        (vec![TITLE], "Move action"),
+        (vec![RUN, TITLE], "Move actions"),
+    ] {
+        let mut window = scene(FOXES).window();
+        let select = SceneRequest::SelectActions(actions, Choice::Replace);
+        window.state_mut().state.execute(Request::Scene(select));
+        let effect = window.state_mut().state.execute(Request::Command(Id::ClipLater));
+        let Some(Effect::Change(change)) = effect else { panic!("{effect:?}") };
+        window.state_mut().change(change);
+        let read = window.state().state.read();
+        assert_eq!(read.view.expect("a scene").history.labels()[0], Some(label));
+    }
 }

@@ -89,7 +89,7 @@ fn the_menu_of_a_lane_adds_takes_shots_and_attachments_at_the_playhead() {
     window.run_steps(2);
     let at = beside(&window, MOVE);
     right_click(&mut window, at);
-    choose(&mut window, &["Add take at the playhead", "Run"]);
+    choose(&mut window, &["Add clip at the playhead", "Run"]);
     assert_eq!(new_lines(FOXES, &text(&window)), [r#"<play who="ben" take="Run" begin="4"/>"#]);
     undo(&mut window);
     right_click(&mut window, at);

@@ -31,6 +31,8 @@ script_labels! {
     ReplaceText = "Replace text",
     MoveClip = "Move clip",
     MoveClips = "Move clips",
+    MoveAction = "Move action",
+    MoveActions = "Move actions",
     TrimStart = "Trim start",
     TrimEnd = "Trim end",
     ChangeFade = "Change fade",

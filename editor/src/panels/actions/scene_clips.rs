@@ -51,7 +51,8 @@ fn first_begin(base: &SceneBase, actions: &[usize]) -> StageTime {
 pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect> {
     let (actions, at, followers) =
         (unlocked_actions(workspace)?, workspace.read().scene_time(), followers(workspace));
-    gesture(workspace, move_label(&actions), ChangedThings::Actions(&actions), |base| {
+    let label = move_label(workspace.model.view()?.scene.as_ref()?.script.as_ref()?, &actions);
+    gesture(workspace, label, ChangedThings::Actions(&actions), |base| {
         let by = at - first_begin(base, &actions);
         move_clips(&base.scene(), &actions, by, SequenceOrder::Keep, followers)
     })
@@ -60,7 +61,8 @@ pub(in crate::panels) fn to_playhead(workspace: &mut Workspace) -> Option<Effect
 /// Moves the selected actions by frames.
 pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: i64) -> Option<Effect> {
     let (actions, followers) = (unlocked_actions(workspace)?, followers(workspace));
-    gesture(workspace, move_label(&actions), ChangedThings::Actions(&actions), |base| {
+    let label = move_label(workspace.model.view()?.scene.as_ref()?.script.as_ref()?, &actions);
+    gesture(workspace, label, ChangedThings::Actions(&actions), |base| {
         let rate = base.script.rate();
         let begin = first_begin(base, &actions);
         let frame = rate.nearest_frame(begin);

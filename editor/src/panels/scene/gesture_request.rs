@@ -4,6 +4,7 @@ use super::{ChangedThings, SceneBase, SceneRequest, ScriptChange};
 use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
 use dragonfly_anim::stage::gesture::{GestureRefusal, GestureScene};
+use dragonfly_anim::stage::script::StageScript;
 use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
 
@@ -45,7 +46,14 @@ fn gesture_step(
     Ok(base.step(text, label, things))
 }
 
-/// Returns the label of a step that moves actions.
-pub(in crate::panels) fn move_label(actions: &[usize]) -> ScriptLabel {
-    if actions.len() > 1 { ScriptLabel::MoveClips } else { ScriptLabel::MoveClip }
+/// Returns the label of a step that moves actions; those that play takes are clips.
+pub(in crate::panels) fn move_label(script: &StageScript, actions: &[usize]) -> ScriptLabel {
+    let is_clip =
+        |&action: &usize| script.actions().get(action).is_some() && script.element(action).row.name == "play";
+    match (actions.iter().all(is_clip), actions.len() > 1) {
+        (true, false) => ScriptLabel::MoveClip,
+        (true, true) => ScriptLabel::MoveClips,
+        (false, false) => ScriptLabel::MoveAction,
+        (false, true) => ScriptLabel::MoveActions,
+    }
 }

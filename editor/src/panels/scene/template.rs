@@ -23,7 +23,7 @@ pub fn duel_text(models: [&str; 2], scale: f64, face: &str, take: Option<&str>) 
             }
         }
         None => {
-            actions += "    <!-- add takes in the menu of a lane of the timeline, or write <play who=\"anna\" take=\"…\"/> -->\n"
+            actions += "    <!-- add clips in the menu of a lane of the timeline, or write <play who=\"anna\" take=\"…\"/> -->\n"
         }
     }
     format!(

@@ -26,7 +26,7 @@ const OF_PATHS: f32 = 160.0;
 /// Least width of the bar; a narrower viewport has none, points.
 const LEAST: f32 = 160.0;
 
-/// What lines are drawn on, with the commands that choose it.
+/// Surfaces that lines are drawn on, with the commands that choose them.
 const SURFACES: [(Icon, Id, LineSurface); 4] = [
     (Icon::Grid, Id::LinesOnGround, LineSurface::Ground),
     (Icon::View, Id::LinesInView, LineSurface::View),

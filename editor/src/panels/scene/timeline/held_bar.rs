@@ -222,7 +222,7 @@ impl HeldBar {
         let (label, text) = match self.part {
             SceneBarPart::Body => {
                 let order = if *alt { SequenceOrder::Keep } else { SequenceOrder::Change };
-                let label = move_label(&self.actions);
+                let label = move_label(&self.base.script, &self.actions);
                 if let Some(onto) = onto {
                     return (label, move_clips_to_lane(&scene, &self.actions, by, onto, followers));
                 }

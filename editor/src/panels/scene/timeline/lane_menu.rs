@@ -58,7 +58,7 @@ fn lane_entries(ui: &mut Ui, lane: &SceneLane, sheet: &SceneSheet<'_>, requests:
     let things = sheet.scene.plan.as_ref().map_or(&[][..], |plan| plan.things());
     let own = things.iter().find(|thing| *thing.id == *lane.name);
     if let Some(model) = own.and_then(|thing| thing.model.as_ref()) {
-        submenu(ui, "Add take at the playhead", |ui| {
+        submenu(ui, "Add clip at the playhead", |ui| {
             if model.takes().is_empty() {
                 ui.add_enabled(false, Button::new("The model has no takes").frame(false));
             }

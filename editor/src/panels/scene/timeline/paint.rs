@@ -254,7 +254,7 @@ pub(super) fn playhead(painter: &Painter, sheet: &SceneSheet<'_>) {
 
 /// Draws what to do in a scene without actions.
 pub(super) fn hint(painter: &Painter, sheet: &SceneSheet<'_>) {
-    let text = "Nothing happens yet: right-click a lane to add a take, or write an action into the script";
+    let text = "Nothing happens yet: right-click a lane to add a clip, or write an action into the script";
     let at = pos2(
         sheet.canvas.center().x,
         (sheet.canvas.top() + sheet.layout.height() + 28.0).min(sheet.canvas.bottom() - 14.0),
