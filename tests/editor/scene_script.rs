@@ -83,6 +83,34 @@ fn undo_goes_back_word_by_word_to_the_same_bytes() {
 }
 
 #[test]
+fn each_step_of_typing_names_what_was_typed_and_its_line() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "Two foxes meet"));
+    type_text(&mut window, " again");
+    let about = |window: &Window| {
+        let read = window.state().state.read();
+        let history = &read.view.expect("a scene").history;
+        (history.steps.clone(), history.about.iter().map(ToString::to_string).collect::<Vec<_>>())
+    };
+    let (steps, texts) = about(&window);
+    assert_eq!(texts.last().map(String::as_str), Some("“again” in line 3"), "{steps:?} {texts:?}");
+    // The word is one message of the status line, too.
+    put_cursor(&mut window, place(FOXES, "Two foxes"));
+    let said = |window: &Window| window.state().state.read().status.lines().count();
+    let before = said(&window);
+    type_text(&mut window, "es");
+    assert!(said(&window) <= before + 1, "a letter is no message");
+    // A word that is deleted is named as well.
+    for _ in 0..2 {
+        window.key_press(Key::Backspace);
+        window.run_steps(1);
+    }
+    let (steps, texts) = about(&window);
+    assert_eq!(steps.last(), Some(&"Delete text"), "{steps:?}");
+    assert_eq!(texts.last().map(String::as_str), Some("“es” in line 3"), "{texts:?}");
+}
+
+#[test]
 fn while_the_text_is_broken_the_last_good_scene_stays_and_the_error_is_listed() {
     let mut window = scene(FOXES).window();
     let before = window.state().state.read().scene_editing.lanes().clone();

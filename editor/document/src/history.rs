@@ -26,6 +26,8 @@ pub struct HistoryStep {
     pub edit: Edit,
     /// The gesture that made it.
     pub gesture: Option<Gesture>,
+    /// Number that no other step has; a gesture keeps it.
+    pub number: u64,
     /// Names of bones and take, at the time of the edit.
     pub about: Arc<str>,
     /// The amount by which it moves a bone; `None` where it neither sets nor offsets poses.
@@ -63,6 +65,8 @@ pub struct Edited {
     steps: VecDeque<HistoryStep>,
     /// Number of steps that are applied; those after are undone.
     done: usize,
+    /// Number of the newest step.
+    numbered: u64,
     /// Number of steps that were applied at the last save; `None` where neither undo nor redo leads there.
     saved: Option<usize>,
     /// The same for the save that is running.
@@ -100,6 +104,7 @@ impl Edited {
             adapter,
             steps: VecDeque::new(),
             done: 0,
+            numbered: 0,
             saved: Some(0),
             saving: None,
             kept: None,
@@ -172,15 +177,19 @@ impl Edited {
             adapter.revert(step.inverse.clone());
         }
         let same_kind = |step: &&HistoryStep| discriminant(&step.edit) == discriminant(&edit);
-        let about = match self.steps.back().filter(|_| goes_on).filter(same_kind) {
+        let is_written = matches!(&edit, Edit::EditScript(edit) if edit.is_written());
+        let before = self.steps.back().filter(|_| goes_on);
+        let about = match before.filter(same_kind).filter(|_| !is_written) {
             // A gesture changes the same bones all the time, so its text stays.
             Some(step) => Arc::clone(&step.about),
             None => about(&adapter, &edit),
         };
+        let number = before.map_or(self.numbered + 1, |step| step.number);
         let before = PoseBefore::of(&adapter, &edit);
         let inverse = adapter.apply(&edit)?;
         let amount = StepAmount::of(&adapter, &edit, before);
         self.adapter = adapter;
+        self.numbered = self.numbered.max(number);
         if goes_on {
             self.forget_after(self.done - 1);
         } else {
@@ -195,7 +204,7 @@ impl Edited {
         }
         let bytes = inverse.bytes();
         self.bytes += bytes;
-        self.steps.push_back(HistoryStep { edit, gesture, about, amount, before, inverse, bytes });
+        self.steps.push_back(HistoryStep { edit, gesture, number, about, amount, before, inverse, bytes });
         self.done = self.steps.len();
         self.forget_oldest();
         Ok(())

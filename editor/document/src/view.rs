@@ -87,6 +87,8 @@ impl LoadedModel {
 pub struct HistoryView {
     /// Label of each step, the first one first.
     pub steps: Vec<&'static str>,
+    /// Number of each step, which it keeps as long as it is in the history.
+    pub numbers: Vec<u64>,
     /// Bones and take of each step; empty where unknown.
     pub about: Vec<Arc<str>>,
     /// Time and amount of each step; `None` where it neither sets nor offsets poses.
@@ -109,13 +111,14 @@ impl HistoryView {
     pub fn of(edited: &Edited) -> Self {
         let (steps, done) = edited.steps();
         let labels: Vec<_> = steps.iter().map(|step| step.edit.label()).collect();
+        let numbers = steps.iter().map(|step| step.number).collect();
         let about = steps.iter().map(|step| Arc::clone(&step.about)).collect();
         let amounts = steps.iter().map(|step| step.amount).collect();
         let last = done.checked_sub(1).and_then(|last| steps.get(last));
         let shows_difference = last.is_some_and(|step| step.edit.shows_difference());
         let brings_takes = last.is_some_and(|step| step.edit.brings_takes());
         let (saved, saved_at) = (!edited.has_unsaved(), edited.settled());
-        Self { steps: labels, about, amounts, shows_difference, brings_takes, done, saved, saved_at }
+        Self { steps: labels, numbers, about, amounts, shows_difference, brings_takes, done, saved, saved_at }
     }
 
     /// Returns the last unsaved step as a sentence; `None` where nothing is unsaved.

@@ -22,7 +22,7 @@ pub(super) fn describe_change(old: &View, new: &View, scale: ShownScale) -> Opti
     let gone = before.steps.len().saturating_sub(1);
     if now.steps.len() < before.steps.len()
         && now.steps.len() == gone
-        && now.about.last().map(address) == before.about[..gone].last().map(address)
+        && now.numbers.last() == before.numbers.get(..gone).and_then(<[u64]>::last)
     {
         return Some(format!("Cancelled: {}", step(before, gone)));
     }
@@ -49,13 +49,7 @@ pub(super) fn describe_replaced(view: &View, before: usize, brought: usize, now:
 
 /// Returns whether both contain the same steps, however many of them are done.
 pub(super) fn same_steps(before: &HistoryView, now: &HistoryView) -> bool {
-    before.steps.len() == now.steps.len() && before.about.last().map(address) == now.about.last().map(address)
-}
-
-/// Identifies a step: each keeps its own text for as long as it is in the history, so the address of the text differs
-/// from all others.
-fn address(about: &Arc<str>) -> *const u8 {
-    about.as_ptr()
+    before.steps.len() == now.steps.len() && before.numbers.last() == now.numbers.last()
 }
 
 /// Returns a step in a few words.

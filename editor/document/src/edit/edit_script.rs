@@ -19,6 +19,9 @@ use std::collections::BTreeSet;
 /// Number of characters of a text that messages show.
 const SHOWN: usize = 40;
 
+/// Number of characters of a written text that the history shows.
+const EXCERPT: usize = 24;
+
 /// Replaces parts of a text of the document: of the script of a scene, or of a file of a project.
 ///
 /// All places are those of the text before the edit. It is refused if the text differs from `old` at one of them.
@@ -77,6 +80,27 @@ impl EditScript {
         let splices = TextSplices::new(vec![TextSplice::between(old, new)?])?;
         let label = label.map(|label| label.text().to_owned());
         Some(Self { label, ..Self::unnamed(old, &splices) })
+    }
+
+    /// Returns whether the user wrote it into the text.
+    pub(crate) fn is_written(&self) -> bool {
+        self.label.as_deref().and_then(ScriptLabel::of).is_some_and(ScriptLabel::is_writing)
+    }
+
+    /// Returns what was written or deleted, and the line: `“walk” in line 12`; `None` for other edits.
+    fn writing(&self, adapter: &ModelAdapter) -> Option<String> {
+        let splice = self.splices.first().filter(|_| self.is_written())?;
+        let index = adapter.texts().find(self.text.as_ref()).ok()?;
+        // The text before the first place is the same before and after the edit.
+        let before = adapter.texts().list().get(index)?.text.get(..splice.at)?;
+        let line = 1 + before.bytes().filter(|byte| *byte == b'\n').count();
+        let text = if splice.new.is_empty() { &splice.old } else { &splice.new };
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        Some(match words.char_indices().nth(EXCERPT) {
+            _ if words.is_empty() => format!("line {line}"),
+            Some((end, _)) => format!("“{}…” in line {line}", &words[..end]),
+            None => format!("“{words}” in line {line}"),
+        })
     }
 
     /// Returns the edit as edits of one text each, in their order.
@@ -195,7 +219,8 @@ impl EditKind for EditScript {
         let texts = adapter.texts().list();
         let file = adapter.texts().find(self.text.as_ref()).ok().filter(|_| texts.len() > 1);
         let file = file.and_then(|index| texts.get(index)).map(|file| &*file.name);
-        let parts: Vec<&str> = own.into_iter().chain(file).collect();
+        let writing = self.writing(adapter);
+        let parts: Vec<&str> = own.into_iter().chain(writing.as_deref()).chain(file).collect();
         (!parts.is_empty()).then(|| parts.join("  ·  ").chars().take(SHOWN).collect())
     }
 

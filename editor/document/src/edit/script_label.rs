@@ -81,4 +81,9 @@ impl ScriptLabel {
     pub fn of(text: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|label| label.text() == text)
     }
+
+    /// Returns whether the user writes into the text itself.
+    pub fn is_writing(self) -> bool {
+        matches!(self, Self::Type | Self::PasteText | Self::DeleteText | Self::ReplaceText)
+    }
 }
