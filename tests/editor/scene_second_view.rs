@@ -2,7 +2,7 @@
 
 use crate::scene_bench::{FOXES, scene};
 use crate::scene_lines::{run, send};
-use crate::workbench::{Window, drag};
+use crate::workbench::{Window, drag, press, release};
 use dragonfly::control::{Button, InputEvent, Modifiers as Held};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
@@ -15,6 +15,9 @@ use dragonfly_picture::camera::Camera;
 use egui::{Modifiers, Pos2, Rect, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::Vec2;
+
+/// The entry of the free camera.
+const FREE: &str = "Free camera";
 
 fn places(window: &Window) -> (Rect, Option<Rect>) {
     let read = window.state().state.read();
@@ -199,4 +202,26 @@ fn a_second_view_keeps_its_camera_while_a_model_of_the_scene_is_edited_and_begin
     let second = places(&window).1.expect("a second view");
     point(&mut window, second.center());
     assert!(window.state().state.read().is_second_active, "it is worked in");
+}
+
+#[test]
+fn each_of_two_views_has_the_name_of_its_camera_and_the_second_one_a_choice() {
+    let (mut window, [left, right]) = both();
+    let title = window.get_by_label("Shown scene: Free camera").rect();
+    assert!(left.contains_rect(title) && title.width() > 60.0, "it is not cut: {title}");
+    let choice = window.get_by_label("Camera of the second view: shot: wide").rect();
+    assert!(right.contains_rect(choice), "{choice} in {right}");
+    for (entry, name) in [("close", "Second view, close"), (FREE, "Second view, free camera")] {
+        let at = window.get_by_label_contains("Camera of the second view: ").rect().center();
+        press(&mut window, at);
+        release(&mut window, at);
+        window.run_steps(3);
+        let list =
+            window.get_all_by_label(entry).map(|node| node.rect()).filter(|rect| rect.left() >= right.left());
+        let at = list.max_by(|one, other| one.top().total_cmp(&other.top())).expect(entry).center();
+        press(&mut window, at);
+        release(&mut window, at);
+        window.run_steps(3);
+        assert!(window.query_by_label(name).is_some(), "{name}");
+    }
 }

@@ -61,6 +61,7 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::Refused(reason) => workspace.say(MessageSeverity::Info, reason),
         SceneRequest::Line(request) => return scene_lines::perform(workspace, request),
         SceneRequest::Through(through) => scene_camera::look_through(workspace, through),
+        SceneRequest::ThroughSecond(through) => scene_camera::look_through_in_second(workspace, through),
         SceneRequest::EditModel(thing) => return edit_model(workspace, &thing),
         SceneRequest::Settle(edits, choice) => {
             let message = DocumentMessage::DecideAllOutdated(vec![edits], choice);

@@ -33,6 +33,14 @@ pub(in crate::panels) fn look_through(workspace: &mut Workspace, through: Throug
     }
 }
 
+/// Looks through a camera of the scene, or through the free one, in the second of two views.
+pub(in crate::panels) fn look_through_in_second(workspace: &mut Workspace, through: ThroughCamera) {
+    match workspace.camera.is_second_active() {
+        true => look_through(workspace, through),
+        false => workspace.camera.set_other_through(through),
+    }
+}
+
 /// Switches between the camera of the shot and the free one.
 pub(in crate::panels) fn toggle_shot(workspace: &mut Workspace) {
     let through = match workspace.camera.through() {

@@ -87,6 +87,8 @@ pub enum SceneRequest {
     Refused(String),
     /// Looks through a camera of the scene, or through the free one.
     Through(ThroughCamera),
+    /// Looks through a camera in the second of two views.
+    ThroughSecond(ThroughCamera),
     /// Opens the takes and bones of the model of a thing, in place.
     EditModel(Box<str>),
     /// A request about a drawn line.

@@ -14,7 +14,7 @@ use crate::panels::widgets::focus_ring;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
-    Align, Color32, FontId, Layout, Rect, RichText, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align, Color32, FontId, Layout, Pos2, Rect, RichText, Sense, Stroke, Ui, UiBuilder, WidgetInfo, vec2,
 };
 
 /// Heights of the row of options and of the keys below it, points.
@@ -34,11 +34,11 @@ const SURFACES: [(Icon, Id, LineSurface); 4] = [
     (Icon::Bone, Id::LinesOnBone, LineSurface::Bone),
 ];
 
-/// Draws the bar with its top left at `left` and the top of the viewport, while lines or paths of a scene are drawn. Returns its area.
+/// Draws the bar with its top left at `place`, while lines or paths of a scene are drawn. Returns its area.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
-    left: f32,
+    place: Pos2,
     context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) -> Option<Rect> {
@@ -48,7 +48,7 @@ pub(super) fn show(
         LineUse::Path => ("Path on the ground", OF_PATHS, keys(context, false)),
         LineUse::Pose | LineUse::Motion => return None,
     };
-    let room = rect.right() - left - 10.0;
+    let room = rect.right() - place.x - 10.0;
     if room < LEAST {
         return None;
     }
@@ -58,12 +58,12 @@ pub(super) fn show(
     job.wrap = TextWrapping::truncate_at_width(room - 4.0 * GRID);
     let hint = ui.painter().layout_job(job);
     let width = (row.max(hint.size().x) + 4.0 * GRID).min(room);
-    let at = Rect::from_min_size(pos2(left, rect.top() + 52.0), vec2(width, ROW + KEYS + 3.0 * GRID));
+    let at = Rect::from_min_size(place, vec2(width, ROW + KEYS + 3.0 * GRID));
     glass(ui, at);
     let below = at.min + vec2(2.0 * GRID, ROW + 2.0 * GRID);
-    let place = Rect::from_min_size(below, hint.size());
+    let keys_place = Rect::from_min_size(below, hint.size());
     ui.painter().galley(below, hint, theme.weak);
-    let response = ui.interact(place, ui.scope_id().with("keys of lines"), Sense::hover());
+    let response = ui.interact(keys_place, ui.scope_id().with("keys of lines"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, keys));
     let inside = Rect::from_min_size(at.min + vec2(2.0 * GRID, GRID), vec2(at.width() - 4.0 * GRID, ROW));
     let layout = Layout::left_to_right(Align::Center);

@@ -48,7 +48,8 @@ impl Panel for Viewport {
     }
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let second::ViewPlaces { first, active: rect } = second::show(ui, ui.max_rect(), context, requests);
+        let second::ViewPlaces { first, active: rect, second } =
+            second::show(ui, ui.max_rect(), context, requests);
         requests.push(Request::Viewport(rect));
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));
@@ -68,9 +69,11 @@ impl Panel for Viewport {
             let column = tools::toolbar(ui, first, context, requests);
             shields.extend(column);
             let left = column.map_or(first.left(), |column| column.right()) + 10.0;
-            shields.extend(line_options::show(ui, first, left, context, requests));
             shields.extend(axes::axes(ui, rect, context, requests));
-            caption(ui, first, tools.left(), context);
+            shields.extend(second.map(|second| second::title(ui, second, context, requests)));
+            let bottom = caption(ui, first, [left, tools.left()], context);
+            let place = pos2(left, (first.top() + 52.0).max(bottom + 6.0));
+            shields.extend(line_options::show(ui, first, place, context, requests));
             readout::show(ui, rect, context);
         }
         requests.push(Request::Shields(shields));
@@ -78,9 +81,16 @@ impl Panel for Viewport {
     }
 }
 
-/// Draws the names of model and take at the top left, as far as `right`; long names are truncated.
-fn caption(ui: &Ui, rect: Rect, right: f32, context: &PanelContext<'_>) {
-    let Some(view) = context.view else { return };
+/// The name of the free camera.
+const FREE: &str = "Free camera";
+
+/// Least width of the name of a camera next to the toolbar, points; in a narrower view it is below.
+const LEAST_NAME: f32 = 120.0;
+
+/// Draws the names of model and take at the top left, as far as `right`; long names are truncated. `left` is where there are no tools below the
+/// toolbar. Returns the lower edge.
+fn caption(ui: &Ui, rect: Rect, [left, right]: [f32; 2], context: &PanelContext<'_>) -> f32 {
+    let Some(view) = context.view else { return rect.top() };
     let theme = Theme::of(ui);
     let take = match context.playback.take {
         Some(take) => context.digest.takes.get(take).map_or("", |take| take.name.as_str()),
@@ -95,21 +105,29 @@ fn caption(ui: &Ui, rect: Rect, right: f32, context: &PanelContext<'_>) {
     let at = pos2(rect.left() + 14.0, rect.top() + 12.0);
     let width = right - at.x - 12.0;
     if let Some(scene) = &view.scene {
-        let title = match camera_title(context) {
-            Some(camera) => format!("{}  ·  {camera}", view.file.title),
-            None => view.file.title.clone(),
+        let title = match (camera_title(context), context.second_view) {
+            // Each of two views has the name of its camera.
+            (camera, Some(_)) => camera.unwrap_or_else(|| FREE.to_owned()),
+            (Some(camera), None) => format!("{}  ·  {camera}", view.file.title),
+            (None, None) => view.file.title.clone(),
         };
-        let bottom = name(ui, at, width, &title, "scene", (style::BODY, theme.text));
-        if rect.width() > 640.0 {
-            let things = scene.plan.as_ref().map_or(0, |plan| plan.things().len());
-            let text = widgets::count(things, "thing", "things");
-            name(ui, pos2(at.x, bottom + 2.0), width, &text, "cast", (style::SMALL, theme.weak));
+        if context.second_view.is_some() && width < LEAST_NAME {
+            let at = pos2(left, rect.top() + 52.0);
+            let width = rect.right() - left - 10.0;
+            return name(ui, at, width, &title, "scene", (style::BODY, theme.text));
         }
-        return;
+        let bottom = name(ui, at, width, &title, "scene", (style::BODY, theme.text));
+        if rect.width() <= 640.0 {
+            return bottom;
+        }
+        let things = scene.plan.as_ref().map_or(0, |plan| plan.things().len());
+        let text = widgets::count(things, "thing", "things");
+        return name(ui, pos2(at.x, bottom + 2.0), width, &text, "cast", (style::SMALL, theme.weak));
     }
     let bottom = name(ui, at, width, &view.file.title, "model", (style::BODY, theme.text));
-    if rect.width() > 640.0 {
-        name(ui, pos2(at.x, bottom + 2.0), width, &take, "take", (style::SMALL, theme.weak));
+    match rect.width() > 640.0 {
+        true => name(ui, pos2(at.x, bottom + 2.0), width, &take, "take", (style::SMALL, theme.weak)),
+        false => bottom,
     }
 }
 

@@ -23,7 +23,8 @@ pub(super) fn toolbar(
 ) -> Rect {
     let look = &context.settings.look;
     // A narrow viewport keeps the buttons that have no alternative nearby; the menus contain all of them.
-    let wide = rect.width() > 430.0;
+    // One of two views needs room for the name of its camera.
+    let wide = rect.width() > if context.second_view.is_some() { 640.0 } else { 430.0 };
     let is_scene = context.scene().is_some();
     let groups = if wide { 12.0 } else { 6.0 } + if is_scene { 2.0 } else { 0.0 };
     let width = groups * 26.0 + 3.0 * 9.0 + 2.0 * GRID + if wide { 26.0 } else { 0.0 };
