@@ -86,6 +86,7 @@ mod root_bone;
 mod ruler;
 mod saved_pending;
 mod scene_attach;
+mod scene_attributes;
 mod scene_bar_drags;
 mod scene_bench;
 mod scene_box;

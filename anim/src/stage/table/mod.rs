@@ -19,8 +19,8 @@ pub use property::{PROPERTIES, PropertyRow, PropertyType, property};
 pub use reference::NameReference;
 pub use row::{AttributeRow, ElementGroup, ElementRow};
 pub use schema::schema;
-pub use value::ValueRow;
 pub use value::vector;
+pub use value::{PlainNumbers, ValueRow};
 pub(in crate::stage) use value::{numbers, points, size};
 pub use vocabulary::{LINE_FILES, PROJECTS, SCRIPTS, Vocabulary};
 

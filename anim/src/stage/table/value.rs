@@ -16,6 +16,17 @@ pub struct ValueRow {
     pub is_valid: fn(&str, StageRate) -> bool,
 }
 
+/// Values that are a fixed count of numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlainNumbers {
+    /// Number of numbers.
+    pub count: usize,
+    /// The least one of them may be.
+    pub least: f64,
+    /// The most one of them may be.
+    pub most: f64,
+}
+
 impl ValueRow {
     const fn new(
         expected: &'static str,
@@ -33,6 +44,22 @@ impl ValueRow {
     /// Returns whether such a value is a time or a moment, which may be written in frames.
     pub fn has_frames(&self) -> bool {
         [TIME_PATTERN, MOMENT_PATTERN].contains(&self.pattern)
+    }
+
+    /// Returns how many numbers such a value is, and between which bounds; `None` for values that are no plain numbers.
+    pub fn plain_numbers(&self) -> Option<PlainNumbers> {
+        const MOST: f64 = 1e6;
+        let rows = [
+            (&VECTOR, 3, -MOST, MOST),
+            (&TILT, 2, -MOST, MOST),
+            (&POINT_2D, 2, 0.0, 1.0),
+            (&NUMBER, 1, -MOST, MOST),
+            (&POSITIVE, 1, 1e-4, MOST),
+            (&AMOUNT, 1, 0.0, MOST),
+            (&SHARE, 1, 0.0, 1.0),
+        ];
+        let (_, count, least, most) = rows.into_iter().find(|(row, ..)| row.expected == self.expected)?;
+        Some(PlainNumbers { count, least, most })
     }
 
     /// Returns whether `text` is such a value.

@@ -6,17 +6,20 @@ use super::super::request::Request;
 use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
+use super::attribute_numbers::{DraggedAttribute, NumberAttribute};
 use super::renaming::renamed;
 use super::script::cursor::with_names;
 use super::script::text_choice::ShownText;
 use super::thing_icon::icon;
-use super::{ChangedThings, LineRequest, SceneBase, SceneRequest, line_named};
+use super::{ChangedThings, LineRequest, SceneBase, SceneRequest, ScriptChange, line_named};
 use crate::panels::icons::Icon;
+use crate::panels::submenu::entry;
 use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 use dragonfly_anim::stage::table::AttributeRow;
 use dragonfly_anim::stage::writing::completions;
 use dragonfly_document::edit::ScriptLabel;
+use dragonfly_document::history::Gesture;
 use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 
 /// The fields of the selected action or thing, and of the selected line.
@@ -24,6 +27,8 @@ use egui::{Key, RichText, ScrollArea, TextEdit, Ui};
 pub struct SceneAttributes {
     /// The field that is being typed in: its owner, the attribute, and the text.
     typed: Option<(FieldOwner, &'static str, String)>,
+    /// The number that is dragged.
+    dragged: Option<DraggedAttribute>,
 }
 
 impl Panel for SceneAttributes {
@@ -191,9 +196,24 @@ impl SceneAttributes {
             ui.horizontal(|ui| {
                 ui.add_space(2.0 * GRID);
                 let color = if written.is_some() { theme.text } else { theme.weak };
-                let (rect, label) = ui.allocate_exact_size(egui::vec2(82.0, 24.0), egui::Sense::hover());
+                let (rect, label) = ui.allocate_exact_size(egui::vec2(82.0, 24.0), egui::Sense::CLICK);
                 widgets::text_in(ui, rect, row.name, &egui::TextStyle::Body, color);
+                if written.is_some() && !row.required {
+                    label.context_menu(|ui| {
+                        if entry(ui, "Reset to the default").clicked() {
+                            requests.push(Request::Scene(field.set(context, "")));
+                            ui.close();
+                        }
+                    });
+                }
                 label.on_hover_text(format!("{}\n{}", row.help, row.value.expected));
+                let numbers = match field.owner {
+                    FieldOwner::Element(element) => NumberAttribute::of(element, row, written),
+                    FieldOwner::Line(_) => None,
+                };
+                if let Some(numbers) = numbers {
+                    return numbers.show(ui, context, &mut self.dragged, requests);
+                }
                 let is_typed =
                     self.typed.as_ref().is_some_and(|(of, name, _)| (of, *name) == (&field.owner, row.name));
                 if !is_typed && !row.value.choices.is_empty() {
@@ -326,27 +346,49 @@ fn set(context: &PanelContext<'_>, element: usize, row: &AttributeRow, value: &s
         let scene = context.scene().ok_or_else(|| refused("No scene is open".to_owned()))?;
         let base = SceneBase::of(scene, context.scene_editing.text(scene))?;
         let tree = base.script.tree();
-        in_scene_texts(tree, element)?;
         let is_name =
             row.name == "id" && tree.elements().get(element).is_some_and(|own| own.attribute("id").is_some());
-        if !value.is_empty() && !row.value.accepts(value, base.script.rate()) {
-            return Err(refused(format!("{}=\"{value}\" is not {}", row.name, row.value.expected)));
-        }
         if is_name && !value.is_empty() {
+            checked(&base, element, row, value)?;
             return Ok(SceneRequest::Text(renamed(scene, &base, element, value)?));
         }
         let written = Some(value).filter(|value| !value.is_empty());
-        let splices = set_on_thing(&base.script, element, row.name, written);
-        let splices =
-            splices.ok_or_else(|| refused(format!("{}=\"{value}\" is not possible here", row.name)))?;
-        let label = ScriptLabel::ChangeValue;
-        // An included file is not read yet.
-        if tree.elements().get(element).is_some_and(|own| own.row.name == "include" && row.name == "src") {
-            let text = splices.apply(tree.text());
-            return Ok(SceneRequest::Text(base.step(text, label, ChangedThings::None)));
-        }
-        // A reference to something that does not exist is refused with its reason.
-        Ok(SceneRequest::Text(base.spliced(&splices, label, None, ChangedThings::Element(element))?))
+        Ok(SceneRequest::Text(value_change(&base, element, row, written, None)?))
     };
     done().unwrap_or_else(|refusal| SceneRequest::Refused(refusal.to_string()))
+}
+
+/// Returns the change that gives an attribute of an element a value, or removes it.
+///
+/// # Errors
+///
+/// The element is in an included file, or the attribute does not accept the value.
+pub(super) fn value_change(
+    base: &SceneBase,
+    element: usize,
+    row: &AttributeRow,
+    value: Option<&str>,
+    gesture: Option<Gesture>,
+) -> Result<ScriptChange, GestureRefusal> {
+    let (tree, text) = (base.script.tree(), value.unwrap_or_default());
+    checked(base, element, row, text)?;
+    let splices = set_on_thing(&base.script, element, row.name, value);
+    let splices =
+        splices.ok_or_else(|| GestureRefusal(format!("{}=\"{text}\" is not possible here", row.name)))?;
+    let label = ScriptLabel::ChangeValue;
+    // An included file is not read yet.
+    if tree.elements().get(element).is_some_and(|own| own.row.name == "include" && row.name == "src") {
+        return Ok(base.step(splices.apply(tree.text()), label, ChangedThings::None));
+    }
+    // A reference to something that does not exist is refused with its reason.
+    base.spliced(&splices, label, gesture, ChangedThings::Element(element))
+}
+
+/// Refuses a value that an attribute does not accept, and an element of an included file.
+fn checked(base: &SceneBase, element: usize, row: &AttributeRow, value: &str) -> Result<(), GestureRefusal> {
+    in_scene_texts(base.script.tree(), element)?;
+    match value.is_empty() || row.value.accepts(value, base.script.rate()) {
+        true => Ok(()),
+        false => Err(GestureRefusal(format!("{}=\"{value}\" is not {}", row.name, row.value.expected))),
+    }
 }

@@ -10,6 +10,7 @@
 
 mod action_menu;
 mod action_selection;
+mod attribute_numbers;
 pub mod attributes;
 mod base;
 mod changed_things;
