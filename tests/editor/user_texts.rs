@@ -6,6 +6,7 @@ use crate::scene_lines::run;
 use crate::scene_sounds::forwarding;
 use crate::workbench::Workbench;
 use dragonfly::app::scene_maker::make_demo;
+use dragonfly::panels::FileChoice;
 use dragonfly::panels::commands::{self, Id};
 use dragonfly::panels::dialogs::RewriteQuestion;
 use dragonfly_document::{FileView, SaveOrder, View, formats};
@@ -51,6 +52,18 @@ fn hints_name_the_menu_in_which_scenes_and_projects_are_made() {
     let read = window.state().state.read();
     let said = read.status.last().map(|message| message.text.clone()).unwrap_or_default();
     assert!(said.contains("\"New project from this scene\" in the menu File > New"), "{said}");
+}
+
+#[test]
+fn the_dialogs_for_a_new_scene_say_what_is_chosen_and_what_is_written() {
+    for (choice, chosen, written) in [
+        (FileChoice::NewScene, "choose the model", "A project with the scene is written next to it"),
+        (FileChoice::DemoScene, "choose a folder", "Two figures and a scene with them are written there"),
+    ] {
+        let title = choice.title();
+        assert!(title.starts_with("New scene: ") && title.contains(chosen), "{title}");
+        assert!(title.contains(written), "{title}");
+    }
 }
 
 #[test]

@@ -42,8 +42,12 @@ impl FileChoice {
             Self::Reference => "Choose a reference picture",
             Self::Sound | Self::SceneSound => "Choose a sound",
             Self::RetargetSource => "Choose the model with the take",
-            Self::NewScene => "Choose the model of the two roles",
-            Self::DemoScene => "Choose the folder of the new scene",
+            Self::NewScene => {
+                "New scene: choose the model of its two roles. A project with the scene is written next to it"
+            }
+            Self::DemoScene => {
+                "New scene: choose a folder. Two figures and a scene with them are written there"
+            }
             Self::Role => "Choose the model of the role",
             Self::Prop => "Choose the model of the prop",
             Self::MissingModel => "Find the missing model",
