@@ -254,3 +254,35 @@ fn a_frame_in_which_nothing_is_typed_copies_no_text() {
     // egui copies the text of each field once.
     assert!(long < short + more * 3 / 2, "{short} bytes for a text of {length}, {long} for one of {longer}");
 }
+
+#[test]
+fn the_key_to_find_opens_a_field_in_the_script_that_goes_from_place_to_place() {
+    let mut window = scene(FOXES).window();
+    let is_open = |window: &Window| window.query_by_label("Find in the script").is_some();
+    put_cursor(&mut window, FOXES.find("<par").expect("the actions"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    assert!(is_open(&window), "while the script has the focus");
+    type_text(&mut window, "ANNA");
+    let count = FOXES.matches("anna").count();
+    // The first place after the cursor.
+    let before = FOXES[..FOXES.find("<par").expect("the actions")].matches("anna").count();
+    let shows = |window: &Window, at: usize| window.query_by_label(&format!("{at} of {count}")).is_some();
+    assert!(shows(&window, before + 1));
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(shows(&window, before + 2));
+    window.get_by_label("Previous place").click();
+    window.run_steps(3);
+    assert!(shows(&window, before + 1));
+    assert_eq!(text(&window), FOXES, "nothing is typed into the script");
+    window.get_by_label("Find in the script").focus();
+    window.run_steps(2);
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(!is_open(&window), "Escape closes it");
+    // The cursor is where the place is.
+    type_text(&mut window, "x");
+    let at = FOXES.match_indices("anna").nth(before).expect("a place").0;
+    assert_eq!(text(&window), format!("{}x{}", &FOXES[..at], &FOXES[at..]));
+}

@@ -32,5 +32,5 @@ commands! {
     MuteBones => When::Bone, "Mute bones", [], "Mutes or unmutes the animation of the selected bones in the viewport; their keys are unchanged", |w| { bones::toggle_flag(w, BoneFlag::Mute); None };
     SoloBones => When::Bone, "Solo bones", [], "Mutes or unmutes the animation of all other bones in the viewport", |w| { bones::toggle_flag(w, BoneFlag::Solo); None };
     LockBones => When::Bone, "Lock bones", [], "Locks or unlocks the selected bones against editing", |w| { bones::toggle_flag(w, BoneFlag::Lock); None };
-    Find => When::Model, "Find a bone", [key(CTRL, Key::F)], "Focuses the search field of the hierarchy", |w| { w.prompts.set_find(true); None };
+    Find => When::Model, "Find a bone", [key(CTRL, Key::F)], "Focuses the search field of the hierarchy, of the list of things in a scene, or of the script while that is typed in", |w| { w.prompts.set_find(true); None };
 }

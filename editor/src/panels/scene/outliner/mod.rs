@@ -12,6 +12,7 @@ use super::super::request::Request;
 use super::super::style::{GRID, ROW};
 use super::super::{Panel, PanelPlace, widgets};
 use super::SceneRequest;
+use super::script::find;
 use crate::panels::commands::Id;
 use crate::panels::icons::Icon;
 use crate::panels::search_field;
@@ -90,7 +91,8 @@ impl Panel for Outliner {
             return widgets::empty(ui, "The scene is empty", "Drop a model file here, or add a thing above");
         }
         if script.things().len() > SEARCHED {
-            search_field::show(ui, &mut self.query, "Find a thing", context.find);
+            let focus = context.find && !find::has_focus(ui);
+            search_field::show(ui, &mut self.query, "Find a thing", focus);
         } else {
             self.query.clear();
         }

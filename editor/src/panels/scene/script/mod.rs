@@ -3,6 +3,7 @@
 mod coloring;
 pub(super) mod cursor;
 mod error_list;
+pub(super) mod find;
 mod lines;
 mod margin;
 mod popup;
@@ -31,6 +32,7 @@ use egui::{
     pos2,
 };
 use error_list::{ListClick, SceneErrorList};
+use find::{FindEvent, ScriptFind};
 use lines::{byte_of, characters_before, lines_of, moved_position};
 use popup::{SuggestionKey, SuggestionList};
 use std::ops::Range;
@@ -62,6 +64,9 @@ pub struct ScriptPanel {
     /// The text that is shown.
     shown: ShownText,
     errors: SceneErrorList,
+    find: ScriptFind,
+    /// The found place that is brought into sight in this frame.
+    found: Option<Range<usize>>,
 }
 
 impl Panel for ScriptPanel {
@@ -103,7 +108,14 @@ impl Panel for ScriptPanel {
             self.errors.update(scene, sounds);
         }
         let errors = self.errors.height(rect.height());
-        let edit = Rect::from_min_max(rect.min, pos2(rect.right(), rect.bottom() - errors));
+        if context.find && find::has_focus(ui) {
+            self.find.open();
+        }
+        let bar = if self.find.is_open() { find::HEIGHT } else { 0.0 };
+        let edit = Rect::from_min_max(
+            pos2(rect.left(), rect.top() + bar),
+            pos2(rect.right(), rect.bottom() - errors),
+        );
         let list = Rect::from_min_max(pos2(rect.left(), edit.bottom()), rect.max);
         match error_list::show(ui, list, &self.errors) {
             Some(ListClick::Place(text, at)) => {
@@ -113,14 +125,18 @@ impl Panel for ScriptPanel {
             Some(ListClick::Find(missing)) => requests.push(Request::Scene(SceneRequest::Find(missing))),
             None => {}
         }
-        let (id, text) = match self.shown {
-            ShownText::Script => (Id::unique("script of the scene"), context.scene_editing.text(scene)),
+        let id = self.shown.field();
+        let text = match self.shown {
+            ShownText::Script => context.scene_editing.text(scene),
             ShownText::Project => match context.scene_editing.project_text(scene) {
-                Some(text) => (Id::unique("text of the project"), text),
+                Some(text) => text,
                 None => return,
             },
         };
         self.follow_document(ui, id, text);
+        if self.find.is_open() {
+            self.show_find(ui, Rect::from_min_max(rect.min, edit.right_top()), id);
+        }
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(edit));
         child.set_clip_rect(edit.intersect(ui.clip_rect()));
         self.edit(&mut child, id, scene, context, requests);
@@ -128,6 +144,19 @@ impl Panel for ScriptPanel {
 }
 
 impl ScriptPanel {
+    /// Draws the bar that finds a text, and goes to what it found.
+    fn show_find(&mut self, ui: &mut Ui, bar: Rect, id: Id) {
+        let caret = TextEditState::load(ui.ctx(), id).and_then(|state| state.cursor.char_range());
+        let text = self.buffer.as_str();
+        let caret = caret.map_or(0, |range| byte_of(text, range.primary.index.0));
+        match self.find.show(ui, bar, text, caret) {
+            Some(FindEvent::Show(range)) => self.found = Some(range),
+            Some(FindEvent::Close(Some(at))) => self.jump = Some(at),
+            Some(FindEvent::Close(None)) => ui.memory_mut(|memory| memory.request_focus(id)),
+            None => {}
+        }
+    }
+
     /// Shows another text from now on; a word that is being typed is over then.
     fn choose(&mut self, text: Option<ShownText>, requests: &mut Vec<Request>) {
         let Some(text) = text.filter(|text| *text != self.shown) else { return };
@@ -204,6 +233,7 @@ impl ScriptPanel {
         // The list of errors takes room from the text, and the cursor stays in sight.
         let is_smaller = has_focus && ui.max_rect().height() < self.height;
         self.height = ui.max_rect().height();
+        let found = self.found.take();
         let follows = selected.clone().filter(|range| self.followed.as_ref() != Some(range) && !has_focus);
         let area = ScrollArea::both().auto_shrink(false).id_salt("script");
         let output = area.show(ui, |ui| {
@@ -232,6 +262,10 @@ impl ScriptPanel {
                 margin::background(ui, background, &sheet);
                 margin::show(ui, &sheet);
                 if let Some(range) = &follows {
+                    margin::scroll_to(ui, &sheet, range);
+                }
+                self.find.mark(ui, text, &output);
+                if let Some(range) = &found {
                     margin::scroll_to(ui, &sheet, range);
                 }
                 let moved = output.cursor_range.map(|range| range.primary) != self.caret;

@@ -5,8 +5,8 @@ use crate::panels::scene::SceneRequest;
 use crate::panels::style::GRID;
 use crate::panels::widgets;
 use dragonfly_document::SceneView;
-use egui::Ui;
 use egui::accesskit::Role;
+use egui::{Id, Ui};
 
 /// A text of the scene that can be shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,6 +16,16 @@ pub(in crate::panels::scene) enum ShownText {
     Script,
     /// The project that the script belongs to.
     Project,
+}
+
+impl ShownText {
+    /// Returns the id of the field in which it is typed.
+    pub(super) fn field(self) -> Id {
+        match self {
+            Self::Script => Id::unique("script of the scene"),
+            Self::Project => Id::unique("text of the project"),
+        }
+    }
 }
 
 /// Draws the choice of a text. Returns the one that was chosen; another script is asked for.
