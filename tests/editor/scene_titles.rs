@@ -5,7 +5,7 @@ use crate::scene_lines::run;
 use crate::workbench::Window;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
-use egui::{Rect, vec2};
+use egui::{Rect, Shape, vec2};
 use egui_kittest::kittest::Queryable;
 
 const NAME: &str = "Title: The End";
@@ -57,4 +57,26 @@ fn the_second_view_has_the_titles_of_the_shot() {
     run(&mut window, Id::LookThroughShot);
     window.run_steps(2);
     assert_eq!(titles(&window).len(), 2, "each view has its own");
+}
+
+#[test]
+fn the_guides_of_the_image_are_behind_its_titles() {
+    // A third of the image, where a guide is.
+    let text = FOXES.replace("text=\"The End\"", "text=\"The End\" at=\"0.5 0.6667\"");
+    let mut window = scene(&text).window();
+    run(&mut window, Id::LookThroughShot);
+    if !window.state().state.read().settings.look.image_guides {
+        run(&mut window, Id::ToggleImageGuides);
+    }
+    seek(&mut window, 4.8);
+    let [title] = titles(&window)[..] else { panic!("{:?}", titles(&window)) };
+    let shapes = &window.output().shapes;
+    let is_title = |shape: &Shape| matches!(shape, Shape::Text(text) if text.galley.text() == "The End");
+    let last = shapes.iter().rposition(|clipped| is_title(&clipped.shape)).expect("the title");
+    let crosses = |shape: &Shape| {
+        matches!(shape, Shape::LineSegment { points: [from, to], .. }
+            if from.y == to.y && title.y_range().contains(from.y) && from.x < title.left() && to.x > title.right())
+    };
+    let lines: Vec<usize> = (0..shapes.len()).filter(|&at| crosses(&shapes[at].shape)).collect();
+    assert!(!lines.is_empty() && lines.iter().all(|&line| line < last), "{lines:?}, the title is {last}");
 }

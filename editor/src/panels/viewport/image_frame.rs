@@ -5,7 +5,7 @@ use crate::panels::style;
 use dragonfly_anim::stage::ShownTitle;
 use dragonfly_picture::{ThroughCamera, TitleLook};
 use egui::accesskit::Role;
-use egui::{Color32, FontId, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{Color32, FontId, Painter, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
 /// Parts of the image in which everything that happens, and every title, is safe from being cut off.
@@ -34,12 +34,17 @@ pub(super) fn frame(ui: &Ui, rect: Rect, context: &PanelContext<'_>) {
             painter.rect_filled(part, 0.0, outside);
         }
     }
-    titles(ui, image, context);
     let edge = Stroke::new(1.0, Color32::from_white_alpha(150));
     painter.rect_stroke(image, 0.0, edge, StrokeKind::Outside);
-    if !context.settings.look.image_guides {
-        return;
+    if context.settings.look.image_guides {
+        guides(&painter, image);
     }
+    // Over the guides, which would strike them through.
+    titles(ui, image, context);
+}
+
+/// Draws the thirds and the safe areas of an image.
+fn guides(painter: &Painter, image: Rect) {
     let line = Stroke::new(1.0, Color32::from_white_alpha(38));
     for third in [1.0 / 3.0, 2.0 / 3.0] {
         painter.vline(image.left() + image.width() * third, image.y_range(), line);
