@@ -198,3 +198,11 @@ fn what_is_selected_elsewhere_is_brought_into_sight_in_the_list() {
     window.run_steps(6);
     assert!(window.query_by_label("m55, mark").is_some());
 }
+
+#[test]
+fn the_button_that_adds_things_has_the_margin_of_the_first_buttons_of_other_panels() {
+    let window = window();
+    let button = window.get_by_label("Add a thing to the scene").rect();
+    let row = window.get_by_label("anna, role").rect();
+    assert_eq!(button.left() - row.left(), 8.0, "{button}, {row}");
+}

@@ -240,7 +240,8 @@ impl Outliner {
 fn bar(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.add_space(GRID);
     ui.horizontal(|ui| {
-        ui.add_space(GRID);
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.add_space(2.0 * GRID);
         let button = widgets::quiet_button(ui, Icon::Add, true, "Add", "Add a thing to the scene");
         egui::Popup::menu(&button).show(|ui| entries(ui, context, requests));
     });
