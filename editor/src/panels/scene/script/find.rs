@@ -42,7 +42,7 @@ pub(super) struct ScriptFind {
     at: usize,
 }
 
-/// What the user did in the bar.
+/// An outcome of the bar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum FindEvent {
     /// Went to a place.
