@@ -2,8 +2,9 @@
 
 use super::commands::{self, Category, Id};
 use super::context::PanelContext;
-use super::menu::{entries, item, submenu};
+use super::menu_entries::{entries, item};
 use super::request::Request;
+use super::submenu::submenu;
 use egui::Ui;
 
 /// Titles of the menus in the menu, each with its commands.

@@ -52,6 +52,7 @@ mod loop_dialog;
 mod loop_search;
 pub mod marks;
 pub mod menu;
+mod menu_entries;
 mod mirror_pairs;
 mod model_size;
 pub mod motion_path;

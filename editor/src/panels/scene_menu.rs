@@ -2,9 +2,10 @@
 
 use super::commands::{self, Category, Id};
 use super::context::PanelContext;
-use super::menu::{entries, submenu};
+use super::menu_entries::entries;
 use super::request::Request;
 use super::scene::add_action_menu;
+use super::submenu::submenu;
 use egui::Ui;
 
 /// Titles of the menus in the menu, each with its commands.
