@@ -81,7 +81,7 @@ fn a_take_dropped_onto_a_lane_plays_from_the_snapped_time_fades_over_the_clip_be
     let [new] = editing.actions() else { panic!("{:?} are selected", editing.actions()) };
     let (_, bar) = editing.lanes().bar_of(*new).expect("a bar");
     assert_eq!((bar.kind, bar.begin), ("play", StageTime::from_seconds(3.5)));
-    assert_eq!(editing.things(), ["ben".into()]);
+    assert_eq!(editing.things(), [Box::from("ben")]);
 }
 
 #[test]

@@ -17,7 +17,7 @@ use egui::{Id, Rect, Ui, pos2, vec2};
 
 /// Height of a field, points.
 const HEIGHT: f32 = 24.0;
-/// Difference that is not written.
+/// Difference that is not written; of small numbers less than this.
 const GRAIN: f64 = 5e-5;
 /// Change per point of a drag: of lengths and factors, and of degrees.
 const SPEED: f64 = 0.01;
@@ -113,7 +113,7 @@ impl NumberAttribute {
     fn with(&self, index: usize, number: f64) -> String {
         let mut texts = self.texts.clone();
         if let Some(text) = texts.get_mut(index) {
-            *text = exact(number, GRAIN);
+            *text = exact(number, GRAIN.min(1e-4 * number.abs()));
         }
         texts.join(" ")
     }
