@@ -60,3 +60,14 @@ fn values_that_are_no_plain_numbers_and_paths_stay_texts() {
     assert!(window.query_by_label("look").is_some() && window.query_by_label("look x").is_none());
     assert!(window.query_by_label("at x").is_some());
 }
+
+#[test]
+fn the_heading_calls_an_action_that_plays_a_take_a_clip() {
+    let mut window = scene(FOXES).window();
+    for (action, heading) in [(5, "clip looks"), (7, "move ben")] {
+        let select = SceneRequest::SelectAction(Some(action));
+        window.state_mut().state.execute(Request::Scene(select));
+        window.run_steps(3);
+        assert!(window.query_by_label(heading).is_some(), "{heading}");
+    }
+}
