@@ -151,7 +151,7 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
         let (mark, _) = ui.allocate_exact_size(egui::vec2(16.0, 16.0), egui::Sense::hover());
         icon(element.row.name).paint(ui.painter(), mark, theme.accent);
         let name = element.value("id").or_else(|| element.value("who")).unwrap_or_default();
-        // What plays a take is a clip wherever it is not the text of the script.
+        // An action that plays a take is called a clip, except in the text of the script.
         let kind = if element.row.name == "play" { "clip" } else { element.row.name };
         let title = match name {
             "" => kind.to_owned(),

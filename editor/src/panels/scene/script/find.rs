@@ -1,12 +1,13 @@
 //! The field that finds a text in the script: all its places, the next one, the one before.
 
+use super::lines::byte_of;
 use super::text_choice::ShownText;
 use crate::panels::icons::Icon;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
 use crate::panels::widgets::{icon_button, select_all};
 use egui::text::CCursor;
-use egui::text_edit::TextEditOutput;
+use egui::text_edit::{TextEditOutput, TextEditState};
 use egui::{Align, Id, Key, Layout, Rect, RichText, TextEdit, Ui, UiBuilder};
 use std::ops::Range;
 
@@ -62,8 +63,10 @@ impl ScriptFind {
         self.is_open
     }
 
-    /// Draws the bar. `caret` is the byte of the cursor in the text: a new query is found from there on.
-    pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, text: &str, caret: usize) -> Option<FindEvent> {
+    /// Draws the bar. `edited` is the field of the text: a new query is found from its cursor on.
+    pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, text: &str, edited: Id) -> Option<FindEvent> {
+        let caret = TextEditState::load(ui.ctx(), edited).and_then(|state| state.cursor.char_range());
+        let caret = caret.map_or(0, |range| byte_of(text, range.primary.index.0));
         let layout = Layout::left_to_right(Align::Center);
         let inside = rect.shrink2(egui::vec2(2.0 * GRID, GRID));
         let mut ui = ui.new_child(UiBuilder::new().max_rect(inside).layout(layout).id_salt("find"));

@@ -146,10 +146,7 @@ impl Panel for ScriptPanel {
 impl ScriptPanel {
     /// Draws the bar that finds a text, and goes to what it found.
     fn show_find(&mut self, ui: &mut Ui, bar: Rect, id: Id) {
-        let caret = TextEditState::load(ui.ctx(), id).and_then(|state| state.cursor.char_range());
-        let text = self.buffer.as_str();
-        let caret = caret.map_or(0, |range| byte_of(text, range.primary.index.0));
-        match self.find.show(ui, bar, text, caret) {
+        match self.find.show(ui, bar, self.buffer.as_str(), id) {
             Some(FindEvent::Show(range)) => self.found = Some(range),
             Some(FindEvent::Close(Some(at))) => self.jump = Some(at),
             Some(FindEvent::Close(None)) => ui.memory_mut(|memory| memory.request_focus(id)),
@@ -283,11 +280,7 @@ impl ScriptPanel {
             .inner
         });
         let output = output.inner;
-        let name = match self.shown {
-            ShownText::Script => "Script of the scene",
-            ShownText::Project => "Text of the project",
-        };
-        let _named = output.response.response.clone().accessible_name(name);
+        let _named = output.response.response.clone().accessible_name(self.shown.name());
         self.followed = selected.or(self.followed.take());
         let cursor = output.cursor_range.map(|range| byte_of(self.buffer.as_str(), range.primary.index.0));
         let before = self.buffer.take_before();

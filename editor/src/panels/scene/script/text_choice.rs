@@ -26,6 +26,14 @@ impl ShownText {
             Self::Project => Id::unique("text of the project"),
         }
     }
+
+    /// Returns the accessible name of that field.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Script => "Script of the scene",
+            Self::Project => "Text of the project",
+        }
+    }
 }
 
 /// Draws the choice of a text. Returns the one that was chosen; another script is asked for.
