@@ -34,7 +34,8 @@ fn right_click(window: &mut Window, pos: Pos2) {
 /// Chooses an entry of the menu that is open; the ones before the last are submenus.
 fn choose(window: &mut Window, path: &[&str]) {
     for title in path {
-        window.get_by_label(title).click();
+        // Fields of attributes have the same words.
+        window.get_by_role_and_label(egui::accesskit::Role::Button, title).click();
         window.run_steps(8);
     }
 }
