@@ -2,8 +2,8 @@
 
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{
-    Change, Decision, DocumentMessage, DocumentReply, FaultInjection, FaultPlan, FaultPoint, SaveTo, Setup,
-    Source, Then,
+    Change, Decision, DocumentMessage, DocumentReply, FaultInjection, FaultPlan, FaultPoint, HistoryView,
+    SaveTo, Setup, Source, Then,
 };
 use dragonfly_kit::document::test_document::{
     TestDocument, autosave_in, autosave_with, copy_after_kill, fox, rename, same_takes, turn,
@@ -452,7 +452,10 @@ fn random_edits_are_recovered_after_a_kill_at_any_moment() {
                 document.wait_for_view(|view| view.generation > generation)
             };
             same_takes(&before, &after);
-            assert_eq!(before.history, after.history, "round {round}, life {life}");
+            // The numbers of the steps are those of a run of the program.
+            let [before, after] =
+                [before, after].map(|view| HistoryView { numbers: Vec::new(), ..(*view.history).clone() });
+            assert_eq!(before, after, "round {round}, life {life}");
         }
     }
 }

@@ -108,7 +108,7 @@ fn errors(path: &Path) -> Vec<String> {
 }
 
 /// Saves, and returns the reason why it failed.
-fn not_saved(document: &mut TestDocument, to: SaveTo) -> String {
+pub(super) fn not_saved(document: &mut TestDocument, to: SaveTo) -> String {
     document.send(DocumentMessage::Save(SaveOrder { to, anyway: true, ..SaveOrder::own(None) }));
     document.wait_for_reply(|reply| match reply {
         DocumentReply::NotSaved(_, NotSaved::Failed(reason)) => Some(reason.clone()),

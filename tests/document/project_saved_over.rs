@@ -1,7 +1,9 @@
 //! A save over another file of the folder replaces none that the project needs, and reads models only where one of them could need it.
 
-use super::projects::{MAIN, PROJECT, project};
-use dragonfly_document::{Cancel, Editable, Source};
+use super::project_moved::not_saved;
+use super::projects::{END, MAIN, PROJECT, is_read, project, replaced_in, text_of};
+use dragonfly_document::{Cancel, Change, Editable, SaveTo, Source};
+use dragonfly_kit::document::test_document::TestDocument;
 use dragonfly_kit::folder::Folder;
 use std::cell::Cell;
 use std::fs;
@@ -28,19 +30,65 @@ fn a_save_over_another_project_of_the_folder_reads_no_model() {
     let editable = Editable::open(&Source::File(project(&folder)), &Cancel::default()).expect("a project");
     for (name, text) in [("other.meproj", PROJECT), ("other.xml", MAIN)] {
         fs::write(folder.join(name), text).expect("a file");
-        assert_eq!(listed(&editable, &folder.join(name)), (None, 0), "{name}");
+        let (reason, read) = listed(&editable, &folder.join(name));
+        assert!(reason.is_some_and(|reason| reason.contains("choose another folder")), "{name}");
+        assert_eq!(read, 0, "{name}");
     }
-    let (reason, read) = listed(&editable, &folder.join("end.xml"));
-    assert!(reason.is_some_and(|reason| reason.contains("another name")), "the project names it");
-    assert_eq!(read, 0);
+}
+
+#[test]
+fn a_project_gets_no_second_name_in_its_folder_under_which_its_scripts_would_be_changed() {
+    let folder = Folder::new("two-names");
+    let path = project(&folder);
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    document.wait_for_view(is_read);
+    document.edit(replaced_in("end.xml", END, "The End", "Fin"));
+    for to in [SaveTo::As(folder.join("v2.meproj")), SaveTo::Copy(folder.join("v3.meproj"))] {
+        let reason = not_saved(&mut document, to);
+        assert!(reason.contains("main.xml and 2 more files in common with foxes.meproj"), "{reason}");
+        assert!(reason.contains("choose another folder"), "{reason}");
+    }
+    assert_eq!(fs::read_to_string(folder.join("end.xml")).expect("a text"), END);
+    assert!(!folder.join("v2.meproj").exists() && !folder.join("v3.meproj").exists());
+    // One that is gone shares nothing.
+    fs::remove_file(&path).expect("the project");
+    document.save(SaveTo::As(folder.join("v2.meproj")));
+    assert_eq!(fs::read_to_string(folder.join("v2.meproj")).expect("a text"), PROJECT);
+    assert!(fs::read_to_string(folder.join("end.xml")).expect("a text").contains("Fin"));
+}
+
+#[test]
+fn the_history_of_a_project_goes_on_after_it_was_saved_in_another_folder_and_the_program_began_again() {
+    let (folder, other) = (Folder::new("moved-history"), Folder::new("moved-history-there"));
+    let autosave = folder.join("autosave");
+    let mut document = TestDocument::new(&autosave);
+    document.open(&project(&folder));
+    document.wait_for_view(is_read);
+    document.edit(replaced_in("end.xml", END, "The End", "Fin"));
+    document.save(SaveTo::As(other.join("foxes.meproj")));
+    let end = END.replace("The End", "Fin");
+    document.edit(replaced_in("end.xml", &end, "Fin", "Ende"));
+    document.save(SaveTo::Own);
+    document.end();
+
+    let mut document = TestDocument::new(&autosave);
+    let view = document.open(&other.join("foxes.meproj"));
+    assert_eq!((view.history.done, view.history.saved), (2, true));
+    document.change(Change::GoTo(0));
+    let view = document.view();
+    assert_eq!(text_of(&view, "end.xml"), END);
 }
 
 #[test]
 fn a_save_over_a_file_that_is_no_scene_is_refused_where_a_model_needs_it() {
     let folder = Folder::new("over-points");
-    let path = project(&folder);
+    project(&folder);
+    // A script alone, which shares no other text.
     let prop = "<prop id=\"crate\" model=\"box.gltf\"/></cast>";
-    fs::write(folder.join("main.xml"), MAIN.replace("</cast>", prop)).expect("a file");
+    let script = MAIN.replace("model=\"fox\"", "model=\"models/Fox.glb\"").replace("</cast>", prop);
+    let path = folder.join("main.xml");
+    fs::write(&path, script).expect("a file");
     fs::write(folder.join("box.gltf"), BOX).expect("a file");
     let points = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
     for name in ["points.xml", "other.xml"] {

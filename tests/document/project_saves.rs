@@ -167,9 +167,9 @@ fn a_project_that_is_saved_in_its_own_folder_by_another_path_gets_no_notice_abou
     let mut document = TestDocument::new(&folder.join("autosave"));
     document.open(&project(&folder));
     document.wait_for_view(is_read);
-    let saved = document.save(SaveTo::As(folder.join("models/../copy.meproj")));
+    let saved = document.save(SaveTo::As(folder.join("models/../foxes.meproj")));
     assert!(saved.notices.is_empty(), "{saved:?}");
-    document.wait_for_view(|view| view.file.title == "copy.meproj" && is_read(view));
+    document.wait_for_view(|view| view.file.title == "foxes.meproj" && is_read(view));
 }
 
 #[test]

@@ -3,7 +3,9 @@
 use crate::panels::{Bench, harness};
 use crate::pictures::states::view_of;
 use crate::program::run;
+use dragonfly::panels::FileChoice;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::prompts::Overlay;
 use dragonfly::panels::{Effect, FileAction, Request};
 use dragonfly_anim::format::{Conventions, UpAxis};
 use dragonfly_document::{Source, Then};
@@ -97,4 +99,22 @@ fn the_dialog_opens_the_file_again_with_the_chosen_options() {
         panic!("nothing is opened")
     };
     assert_eq!(source.conventions(), Conventions::default());
+}
+
+#[test]
+fn the_path_of_a_file_is_typed_where_the_desktop_has_no_dialog_for_files() {
+    for choice in [FileChoice::Takes, FileChoice::NewScene, FileChoice::DemoScene] {
+        let mut harness = harness(Bench::new(Some(view_of(&Source::File(data("gltf/Fox.glb"))))));
+        harness.run_steps(4);
+        harness.state_mut().state.show_overlay(Some(Overlay::FilePath(choice)));
+        harness.run_steps(4);
+        assert!(harness.query_by_label(choice.title()).is_some(), "{choice:?}");
+        harness.event(egui::Event::Text("/models/other.glb".to_owned()));
+        harness.run_steps(2);
+        harness.get_by_label("Choose").click();
+        harness.run_steps(4);
+        assert_eq!(harness.state().state.read().overlay, None, "{choice:?}");
+        let effects = format!("{:?}", harness.state().effects);
+        assert!(effects.contains("/models/other.glb"), "{choice:?}: {effects}");
+    }
 }

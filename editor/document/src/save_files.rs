@@ -6,6 +6,7 @@ use super::copied_files::{CANCELLED, CopiedFiles, ensure_inside, other_file};
 use super::editable::{Editable, is_same_path};
 use super::edited_content::EditedContent;
 use super::needed_files::NeededFiles;
+use super::source::file_name;
 use super::text_source::{contains_scene, is_project};
 use super::{Cancel, Folder};
 use dragonfly_anim::format::{OutputFile, SavePlan};
@@ -64,6 +65,7 @@ impl Editable {
         let earlier = self.copies.of(output).unwrap_or(&none);
         let Some(from) = from else {
             if !is_device {
+                self.ensure_not_shared(output)?;
                 self.ensure_not_needed(plan, output, cancel, progress)?;
             }
             files.written = beside.iter().map(written).collect();
@@ -107,6 +109,26 @@ impl Editable {
         }
         files.written.push((output.to_path_buf(), main.bytes.clone()));
         Ok(files)
+    }
+
+    /// Checks that a project does not get a second name in its folder: both would have the same scripts and lines, and a change of one would
+    /// change the other.
+    fn ensure_not_shared(&self, output: &Path) -> Result<(), String> {
+        let EditedContent::Texts(texts) = &self.content else { return Ok(()) };
+        let own = self.path.as_deref().filter(|own| own.exists() && !self.is_own(output));
+        let (Some(own), [_, shared, more @ ..]) = (own, texts.list()) else { return Ok(()) };
+        let others = match more.len() {
+            0 => String::new(),
+            1 => " and one more file".to_owned(),
+            more => format!(" and {more} more files"),
+        };
+        Err(format!(
+            "{}: it would have {}{others} in common with {}, and a change of one would change both; choose another folder, \
+             which gets everything that the project needs",
+            output.display(),
+            shared.name,
+            file_name(own),
+        ))
     }
 
     /// Checks that a save as another file of the folder does not replace a file that the document needs. Reads models only where the file is

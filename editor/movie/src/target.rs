@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_frames_are_told_from_others() {
+    fn a_name_with_another_beginning_end_or_number_is_not_that_of_a_frame() {
         let name = SequenceName::parse(Path::new("out/f.###.png")).unwrap();
         let found = ["f.007.png", "f.12345.png", "f.07.png", "f.0a7.png", "f..png", "g.007.png", "f.007.exr"]
             .map(|file| name.is_frame(file));

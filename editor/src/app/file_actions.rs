@@ -5,9 +5,8 @@ use super::file_dialog::{self, Purpose};
 use super::interface::Interface;
 use crate::panels::dialogs::PlaceQuestion;
 use crate::panels::prompts::Overlay;
-use crate::panels::sound::SoundSettings;
 use crate::panels::status::MessageSeverity;
-use crate::panels::{Effect, FileAction, FileChoice, Request};
+use crate::panels::{Effect, FileAction, FileChoice, Request, chosen_file};
 use dragonfly_document::{DocumentMessage, Offer, SaveOrder, Source, Then};
 use std::path::Path;
 
@@ -149,24 +148,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.ask_where_it_is(offer, None);
         }
         (Purpose::Choose(choice), Some(path)) => {
-            let request = match choice {
-                FileChoice::PoseFolder => Request::PoseFolder(path),
-                FileChoice::Reference => Request::ReferenceFile(path),
-                FileChoice::Sound => Request::Sound(SoundSettings { file: path, start: 0 }),
-                FileChoice::RetargetSource => {
-                    Request::Answer(FileAction::Send(DocumentMessage::ReadSource(Source::File(path))))
-                }
-                FileChoice::NewScene => Request::NewScene(path),
-                FileChoice::DemoScene => Request::DemoScene(path),
-                FileChoice::Role => Request::AddRole(path),
-                FileChoice::Prop => Request::AddProp(path),
-                FileChoice::SceneSound => Request::AddSound(path),
-                FileChoice::MissingModel | FileChoice::MissingSound => Request::FileFound(path),
-                FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
-                FileChoice::MappedTakes => {
-                    Request::ImportMapped(std::iter::once(path).chain(others).collect())
-                }
-            };
+            let request = chosen_file::request(choice, path, others);
             let effect = interface.state.execute(request);
             interface.effects.extend(effect);
         }
@@ -175,6 +157,8 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             if matches!(choice, FileChoice::MissingModel | FileChoice::MissingSound) {
                 let effect = interface.state.execute(Request::TypeFoundFile);
                 interface.effects.extend(effect);
+            } else if !choice.has_field() {
+                interface.state.show_overlay(Some(Overlay::FilePath(choice)));
             }
         }
         (Purpose::Choose(choice), None) if choice.filter().is_none() => {

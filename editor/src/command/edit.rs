@@ -252,7 +252,7 @@ pub(super) fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Resul
     let mut written = Vec::new();
     let cancel = Cancel::default();
     let SaveFiles { copied, written: files, .. } =
-        editable.files(plan, output, &cancel).map_err(Failure::Input)?;
+        editable.files(plan, output, &cancel, &|_| {}).map_err(Failure::Input)?;
     copied.notices().for_each(|notice| tell(format_args!("{notice}")));
     let copy = |path: &Path, bytes, _| written.push(Written { path: path.display().to_string(), bytes });
     copied.write(None, &cancel, copy).map_err(Failure::Input)?;

@@ -159,7 +159,7 @@ impl CameraState {
         self.other.as_ref()
     }
 
-    /// Sets what the view looks at that is not active; `None` lets it begin anew the next time it is shown.
+    /// Sets what the view looks at that is not active; `None` lets it look through the camera of the shot the next time it is shown.
     pub(super) fn set_other(&mut self, other: Option<OtherView>) {
         self.other = other;
     }

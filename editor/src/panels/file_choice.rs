@@ -77,24 +77,29 @@ impl FileChoice {
 
     /// Returns the message for a desktop without such a dialog.
     pub fn no_dialog(self) -> &'static str {
+        match self.filter() {
+            None => "This desktop has no dialog for choosing folders; type the path instead",
+            Some(_) => "This desktop has no dialog for choosing files; type the path instead",
+        }
+    }
+
+    /// Returns whether the place where the choice begins has a field for the path, so that no other one is shown on a desktop without such a
+    /// dialog.
+    pub fn has_field(self) -> bool {
         match self {
-            Self::PoseFolder => "This desktop has no dialog for choosing folders; type the path instead",
-            Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
-            Self::Reference | Self::RetargetSource | Self::MissingModel | Self::MissingSound => {
-                "This desktop has no dialog for choosing files; type the path instead"
-            }
-            Self::NewScene | Self::DemoScene => {
-                "This desktop has no dialog for choosing files; open a scene.xml instead"
-            }
-            Self::SceneSound => {
-                "This desktop has no dialog for choosing files; drop the sound on the window or write it into the script"
-            }
-            Self::Role | Self::Prop => {
-                "This desktop has no dialog for choosing files; drop the model on the window or write it into the script"
-            }
-            Self::Takes | Self::MappedTakes => {
-                "This desktop has no dialog for choosing files; drop the files on the window instead"
-            }
+            Self::PoseFolder
+            | Self::Reference
+            | Self::RetargetSource
+            | Self::MissingModel
+            | Self::MissingSound => true,
+            Self::Sound
+            | Self::Takes
+            | Self::NewScene
+            | Self::DemoScene
+            | Self::Role
+            | Self::Prop
+            | Self::SceneSound
+            | Self::MappedTakes => false,
         }
     }
 }

@@ -14,6 +14,7 @@ mod bone_menu;
 mod buttonless_keys;
 mod camera_state;
 mod change_summary;
+pub(crate) mod chosen_file;
 mod command_button;
 pub mod commands;
 pub mod compared;

@@ -1,6 +1,8 @@
 //! The field for the path of a model, with the import options.
 
+use super::chosen_file;
 use super::context::PanelContext;
+use super::file_choice::FileChoice;
 use super::request::{FileAction, Request};
 use super::style::GRID;
 use super::theme::Theme;
@@ -29,6 +31,8 @@ pub(super) enum PathUse {
     Again,
     /// The open model is compared with another one.
     Compare,
+    /// A file or folder is chosen.
+    Choice(FileChoice),
 }
 
 /// The path that was typed, and the import options.
@@ -54,11 +58,16 @@ impl OpenPathDialog {
             PathUse::Open => ["Open by path", "Open"],
             PathUse::Again => ["Import options", "Open again"],
             PathUse::Compare => ["Compare with another file", "Compare"],
+            PathUse::Choice(choice) => [choice.title(), "Choose"],
         };
         ui.set_width(WIDTH);
         ui.label(RichText::new(title).heading());
-        let entered = self.field(ui, fresh);
-        if used != PathUse::Compare {
+        let name = match used {
+            PathUse::Choice(_) => "Path",
+            PathUse::Open | PathUse::Again | PathUse::Compare => "Path of the model",
+        };
+        let entered = self.field(ui, name, fresh);
+        if matches!(used, PathUse::Open | PathUse::Again) {
             ui.add_space(GRID);
             let view = context.view.filter(|_| used == PathUse::Again);
             self.options(ui, view.map(|view| &*view.loaded));
@@ -92,19 +101,22 @@ impl OpenPathDialog {
 
     fn request(&self, used: PathUse) -> Request {
         let path = PathBuf::from(self.path.trim().trim_matches('"'));
-        if used == PathUse::Compare {
-            return Request::Answer(FileAction::Send(DocumentMessage::ReadCompared(Source::File(path))));
+        match used {
+            PathUse::Compare => {
+                Request::Answer(FileAction::Send(DocumentMessage::ReadCompared(Source::File(path))))
+            }
+            PathUse::Choice(choice) => chosen_file::request(choice, path, Vec::new()),
+            PathUse::Open | PathUse::Again => Request::Open(Source::of(path, self.chosen)),
         }
-        Request::Open(Source::of(path, self.chosen))
     }
 
     /// Draws the field. Returns whether the user pressed Enter in it.
-    fn field(&mut self, ui: &mut Ui, fresh: bool) -> bool {
+    fn field(&mut self, ui: &mut Ui, name: &str, fresh: bool) -> bool {
         let field = TextEdit::singleline(&mut self.path)
             .hint_text("/home/me/models/fox.glb")
             .desired_width(f32::INFINITY);
         let response = ui.add(field.font(TextStyle::Monospace).margin(Margin::symmetric(10, 7)));
-        let response = response.accessible_name("Path of the model");
+        let response = response.accessible_name(name);
         if fresh {
             response.request_focus();
             // The last path is selected, so that it can be corrected or typed over.

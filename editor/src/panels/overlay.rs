@@ -1,5 +1,7 @@
 //! The overlays over the panels, by name; `overlays.rs` draws them.
 
+use super::file_choice::FileChoice;
+
 /// An overlay over the panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overlay {
@@ -17,6 +19,8 @@ pub enum Overlay {
     Export,
     /// A field for the path of the file with which takes are compared.
     ComparePath,
+    /// A field for the path of a file or folder, on a desktop without a dialog for it.
+    FilePath(FileChoice),
     /// The pairs of left and right bones, and what is mirrored.
     MirrorPairs,
     /// Takes of another model for the open one.

@@ -69,6 +69,9 @@ impl Overlays {
             Overlay::OpenPath => self.path.show(ui, fresh, (PathUse::Open, context), requests),
             Overlay::ImportOptions => self.path.show(ui, fresh, (PathUse::Again, context), requests),
             Overlay::ComparePath => self.path.show(ui, fresh, (PathUse::Compare, context), requests),
+            Overlay::FilePath(choice) => {
+                self.path.show(ui, fresh, (PathUse::Choice(choice), context), requests)
+            }
         });
         if response.should_close() {
             requests.push(Request::Overlay(None));

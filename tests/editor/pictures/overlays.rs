@@ -3,6 +3,7 @@
 use super::series::{self, Crop, PictureCase};
 use super::states::Fullness::{self, Crowded, Empty, Typical};
 use crate::workbench::{Window, Workbench};
+use dragonfly::panels::FileChoice;
 use dragonfly::panels::prompts::Overlay;
 use dragonfly_kit::document::fixture;
 use egui::{Vec2, vec2};
@@ -11,35 +12,36 @@ use std::sync::Arc;
 /// The overlays: a name, the states in which the overlay is drawn, and why the other states are not. A new overlay does
 /// not compile without a row here.
 macro_rules! overlays {
-    ($($overlay:path => $name:literal, $size:expr, [$($state:ident),*], $reason:literal;)*) => {
+    ($($overlay:ident $(($of:path))? => $name:literal, $size:expr, [$($state:ident),*], $reason:literal;)*) => {
         /// Returns the name that the pictures of an overlay begin with.
         fn name(overlay: Overlay) -> &'static str {
             match overlay {
-                $($overlay => $name,)*
+                $(Overlay::$overlay { .. } => $name,)*
             }
         }
 
         /// Each overlay with the size of its window, its states, and the reason why others are left out.
         const TABLE: &[(Overlay, Vec2, &[Fullness], &str)] =
-            &[$(($overlay, $size, &[$($state),*], $reason)),*];
+            &[$((Overlay::$overlay $(($of))?, $size, &[$($state),*], $reason)),*];
     };
 }
 
 overlays! {
-    Overlay::Palette => "palette", vec2(560.0, 480.0), [Empty, Typical, Crowded], "";
-    Overlay::Shortcuts => "shortcuts", vec2(560.0, 480.0), [Typical],
+    Palette => "palette", vec2(560.0, 480.0), [Empty, Typical, Crowded], "";
+    Shortcuts => "shortcuts", vec2(560.0, 480.0), [Typical],
         "the list of commands is the same whatever is open";
-    Overlay::About => "about", vec2(560.0, 320.0), [Typical], "the text is the same whatever is open";
-    Overlay::ComparePath => "compare-path", vec2(640.0, 320.0), [Typical], "the field is the same whatever is open";
-    Overlay::OpenPath => "open-path", vec2(640.0, 420.0), [Typical], "the field is the same whatever is open";
-    Overlay::ImportOptions => "import-options", vec2(640.0, 420.0), [Typical], "the fields are the same whatever is open";
-    Overlay::Export => "export", vec2(640.0, 560.0), [Empty, Typical], "the list of takes is one line";
-    Overlay::MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical], "more bones only make the list scroll";
-    Overlay::Retarget => "retarget", vec2(720.0, 560.0), [Empty, Typical, Crowded], "";
-    Overlay::ModelSize => "model-size", vec2(560.0, 320.0), [Typical], "a model has one size";
-    Overlay::Loop => "loop", vec2(640.0, 560.0), [Empty, Typical, Crowded], "";
-    Overlay::Reference => "reference", vec2(560.0, 480.0), [Typical], "the dialog is the same whatever is open";
-    Overlay::RootMotion => "root-motion", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
+    About => "about", vec2(560.0, 320.0), [Typical], "the text is the same whatever is open";
+    ComparePath => "compare-path", vec2(640.0, 320.0), [Typical], "the field is the same whatever is open";
+    FilePath(FileChoice::Role) => "file-path", vec2(640.0, 260.0), [Typical], "the field is the same whatever is open";
+    OpenPath => "open-path", vec2(640.0, 420.0), [Typical], "the field is the same whatever is open";
+    ImportOptions => "import-options", vec2(640.0, 420.0), [Typical], "the fields are the same whatever is open";
+    Export => "export", vec2(640.0, 560.0), [Empty, Typical], "the list of takes is one line";
+    MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical], "more bones only make the list scroll";
+    Retarget => "retarget", vec2(720.0, 560.0), [Empty, Typical, Crowded], "";
+    ModelSize => "model-size", vec2(560.0, 320.0), [Typical], "a model has one size";
+    Loop => "loop", vec2(640.0, 560.0), [Empty, Typical, Crowded], "";
+    Reference => "reference", vec2(560.0, 480.0), [Typical], "the dialog is the same whatever is open";
+    RootMotion => "root-motion", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
 }
 
 /// Returns a case in a window without panels around the overlay.

@@ -15,7 +15,7 @@ const LARGEST_TABLES: u64 = 256 << 20;
 /// Largest sample that is read, in bytes.
 const LARGEST_SAMPLE: u32 = 256 << 20;
 
-/// What a part of a movie says about itself.
+/// The label, encoding and length of a part of a movie.
 pub(super) struct PartHead {
     pub(super) path: PathBuf,
     pub(super) label: MovieLabel,
@@ -32,7 +32,7 @@ impl PartHead {
         MovieError::Part { path: self.path.clone(), reason }
     }
 
-    /// Returns whether another one says the same.
+    /// Returns whether everything but the path is equal.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         (&self.label, &self.entry, self.timescale, self.delta, self.frames)
             == (&other.label, &other.entry, other.timescale, other.delta, other.frames)
@@ -82,12 +82,12 @@ impl MoviePart {
         Ok(Self { head, file, size, table })
     }
 
-    /// Returns what the part says about itself.
+    /// Returns label, encoding and length.
     pub(super) fn head(&self) -> &PartHead {
         &self.head
     }
 
-    /// Closes the file and returns what the part says about itself.
+    /// Closes the file and returns label, encoding and length.
     pub(super) fn into_head(self) -> PartHead {
         self.head
     }
