@@ -119,6 +119,42 @@ fn paths_are_drawn_on_the_ground_of_the_project_however_high_it_is() {
 }
 
 #[test]
+fn paths_are_drawn_in_an_orthographic_view_in_front_of_its_target_too() {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::ToggleProjection);
+    for places in [quarter(), quarter().into_iter().map(|place| place + DVec3::Z).collect()] {
+        let before = text(&window);
+        run(&mut window, Id::ToolPath);
+        stroke(&mut window, &places);
+        let drawn = new_lines(&before, &text(&window));
+        assert_eq!(drawn.len(), 1, "{drawn:?}");
+        let drawn = points(&drawn[0]);
+        let away = [drawn[0].distance(places[0]), drawn[drawn.len() - 1].distance(places[places.len() - 1])];
+        assert!(away.iter().all(|away| *away < 0.03), "{drawn:?}");
+        run(&mut window, Id::ToolPath);
+    }
+}
+
+#[test]
+fn a_line_that_cannot_be_drawn_says_what_is_missing() {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::ViewFront);
+    for (projection, reason) in [("perspective", "horizon"), ("orthographic", "edge")] {
+        run(&mut window, Id::ToolPath);
+        let viewport = window.state().state.read().viewport;
+        let [x, y] = [viewport.center().x, viewport.center().y - 0.2 * viewport.height()];
+        send(&mut window, InputEvent::MouseMove(Vec2::new(x, y)));
+        send(&mut window, InputEvent::MouseDown(Button::Left));
+        send(&mut window, InputEvent::MouseUp(Button::Left));
+        let read = window.state().state.read();
+        let said = read.status.last().map(|message| message.text.clone()).unwrap_or_default();
+        assert!(said.contains(reason), "{projection}: {said}");
+        run(&mut window, Id::ToolPath);
+        run(&mut window, Id::ToggleProjection);
+    }
+}
+
+#[test]
 fn corners_end_with_enter_and_escape_gives_them_up() {
     let mut window = scene(FOXES).window();
     run(&mut window, Id::ToolPath);

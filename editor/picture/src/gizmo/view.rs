@@ -4,6 +4,9 @@
 use crate::camera::{Camera, Projection};
 use glam::{DVec2, DVec3, Vec2};
 
+/// Distance from the target at which orthographic lines of sight start, in distances of the camera from it.
+const ORTHOGRAPHIC_START: f64 = 100.0;
+
 /// A camera and the size of the viewport. Screen positions are in points from its top left, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GizmoView {
@@ -71,8 +74,16 @@ impl GizmoView {
         at.is_finite().then_some(at)
     }
 
-    /// The line of sight through a screen position: a point on it, and its unit direction away from the viewer.
+    /// The line of sight through a screen position: where it starts, and its unit direction away from the viewer. An orthographic one starts far in
+    /// front of the target, so that everything between it and the viewer is on it.
     pub fn ray(&self, at: DVec2) -> (DVec3, DVec3) {
+        let (origin, direction) = self.ray_from_target(at);
+        let distance = if self.perspective { 0.0 } else { (self.eye - self.target).dot(self.back) };
+        (origin + self.back * (distance * ORTHOGRAPHIC_START), direction)
+    }
+
+    /// The line of sight through a screen position: from the eye, or from the plane of the target in an orthographic view.
+    fn ray_from_target(&self, at: DVec2) -> (DVec3, DVec3) {
         let from_middle = at - self.size / 2.0;
         let aside = (self.right * from_middle.x - self.up * from_middle.y) * self.unit;
         if self.perspective {
@@ -113,7 +124,7 @@ impl GizmoView {
     /// not meet, or beyond the horizon, returns a distant point in that direction, projected onto the plane, so that
     /// the result is continuous for any movement of the pointer.
     pub fn on_plane(&self, at: DVec2, place: DVec3, normal: DVec3) -> DVec3 {
-        let (origin, direction) = self.ray(at);
+        let (origin, direction) = self.ray_from_target(at);
         let along = (place - origin).dot(normal) / direction.dot(normal);
         let far = self.reach(place);
         let (near, far) = if self.perspective { (0.0, far) } else { (-far, far) };

@@ -51,8 +51,8 @@ pub enum LineAnswer {
     EraserMoved(Vec2),
     /// The eraser was lifted: what it touched is erased.
     EraserUp,
-    /// The press was above the horizon, where there is no ground.
-    NoGround,
+    /// Nothing is under the press on which the line could be drawn, such as the ground above the horizon.
+    NoPlace(LineSurface),
 }
 
 /// The state of the mouse.
@@ -224,7 +224,7 @@ impl LineControl {
         self.is_motion = modifiers.alt;
         match self.place_at(at) {
             Some(place) => self.phase = LinePhase::Pressed { at, place },
-            None => self.answer = Some(LineAnswer::NoGround),
+            None => self.answer = Some(LineAnswer::NoPlace(self.surface())),
         }
     }
 

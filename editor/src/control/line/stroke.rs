@@ -57,7 +57,7 @@ pub(super) struct DrawingPlane {
 }
 
 impl DrawingPlane {
-    /// Returns the place under a position, points from the top left of the viewport; `None` above the horizon.
+    /// Returns the place under a position, points from the top left of the viewport; `None` where the plane is not in front of the viewer, such as the ground above the horizon.
     pub(super) fn place_at(&self, at: DVec2) -> Option<DVec3> {
         let (origin, direction) = self.view.ray(at);
         let (through, normal) = match self.surface {

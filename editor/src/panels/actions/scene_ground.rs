@@ -119,7 +119,9 @@ pub(super) fn ground_at(workspace: &Workspace, at: Pos2) -> Option<DVec3> {
     let (origin, direction) = ray_at(workspace, at)?;
     let ground = workspace.read().scene().map_or(0.0, SceneView::ground);
     let along = (ground - origin.y) / direction.y;
-    let is_near = along > 0.0 && along < FARTHEST * f64::from(workspace.camera.camera().distance);
     let place = (origin + direction * along).with_y(ground);
+    let camera = workspace.camera.camera();
+    let from_target = place.distance(camera.target.as_dvec3());
+    let is_near = along > 0.0 && from_target < FARTHEST * f64::from(camera.distance);
     (direction.y.abs() > LEAST_SLOPE && is_near && place.is_finite()).then_some(place)
 }

@@ -21,6 +21,7 @@ use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{PlannedThing, RigidPlace, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptLabel};
 use dragonfly_document::{Change, SceneView, paths_of_renamed_line};
+use dragonfly_picture::camera::Projection;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
 use std::sync::Arc;
@@ -62,10 +63,26 @@ pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<
             None
         }
         LineAnswer::EraserUp => erase(workspace),
-        LineAnswer::NoGround => {
-            workspace.say(MessageSeverity::Info, "There is no ground above the horizon");
+        LineAnswer::NoPlace(surface) => {
+            let text = no_place_text(surface, workspace.camera.camera().projection);
+            workspace.say(MessageSeverity::Info, text);
             None
         }
+    }
+}
+
+/// Returns why a line cannot be drawn under the pointer.
+fn no_place_text(surface: LineSurface, projection: Projection) -> &'static str {
+    match surface {
+        LineSurface::Ground => match projection {
+            Projection::Perspective => "There is no ground above the horizon",
+            Projection::Orthographic => {
+                "The ground is seen from its edge: turn the view, or draw a line in the view"
+            }
+        },
+        LineSurface::View => "The plane of the line is behind the camera: move the camera back",
+        LineSurface::Surface => "There is no surface under the pointer",
+        LineSurface::Bone => "There is no bone under the pointer",
     }
 }
 
