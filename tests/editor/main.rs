@@ -95,6 +95,7 @@ mod scene_commands;
 mod scene_copies;
 mod scene_documents;
 mod scene_drop;
+mod scene_effects;
 mod scene_examples;
 mod scene_files;
 mod scene_focus;

@@ -6,6 +6,7 @@ use super::context::PanelContext;
 use super::icons::Icon;
 use super::key_aim;
 use super::request::Request;
+use super::scene::{NOT_DRAWN, effect_on};
 use super::status::{MessageSeverity, StatusMessage};
 use super::style::{self, GRID};
 use super::theme::Theme;
@@ -115,7 +116,7 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
             (text, MessageSeverity::Info)
         }
         (None, Some(line)) => (sentence(line), line.level),
-        (None, None) => ("Ready".to_owned(), MessageSeverity::Info),
+        (None, None) => (rest_text(context), MessageSeverity::Info),
     };
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Messages: {text}"))
@@ -144,6 +145,15 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
             }
         });
     });
+}
+
+/// Returns the text that is shown while there is no message: that an effect that is on at the playhead is not drawn, if there is one.
+fn rest_text(context: &PanelContext<'_>) -> String {
+    let at = context.scene().map(|_| context.scene_time());
+    match at.and_then(|at| effect_on(context.scene_editing.lanes(), at)) {
+        Some(effect) => format!("{NOT_DRAWN}: {effect} is on here"),
+        None => "Ready".to_owned(),
+    }
 }
 
 /// Returns the text of a message, with the number of times that it was added in a row.

@@ -2,7 +2,7 @@
 
 use crate::panels::request::Effect;
 use crate::panels::scene::{
-    ChangedThings, NewThing, SceneBase, ScriptChange, with_new_sound, with_new_thing, with_run,
+    ChangedThings, NOT_DRAWN, NewThing, SceneBase, ScriptChange, with_new_sound, with_new_thing, with_run,
 };
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
@@ -119,6 +119,9 @@ pub(super) fn add_all(
     });
     if effect.is_some() && !added.is_empty() {
         workspace.scene.await_things(added);
+    }
+    if effect.is_some() && things.contains(&NewThing::Effect) {
+        workspace.say(MessageSeverity::Warning, NOT_DRAWN);
     }
     effect
 }

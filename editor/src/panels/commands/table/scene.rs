@@ -16,7 +16,7 @@ commands! {
     AddProp => When::Scene, "Add prop…", [], "Adds an object to the scene: a model that stands somewhere or is carried", |w| Some(Effect::Choose(FileChoice::Prop, w.read().model_folder()));
     AddSceneCamera => When::Scene, "Add camera", [], "Adds a camera to the scene", |w| scene_text::add(w, &NewThing::Camera);
     AddLight => When::Scene, "Add light", [], "Adds a sun to the scene", |w| scene_text::add(w, &NewThing::Light);
-    AddEffect => When::Scene, "Add effect", [], "Adds rain to the scene; it is on from the playhead on", |w| scene_text::add(w, &NewThing::Effect);
+    AddEffect => When::Scene, "Add effect", [], "Adds rain to the scene; it is on from the playhead on, but effects are not drawn yet", |w| scene_text::add(w, &NewThing::Effect);
     AddPath => When::Scene, "Add path", [], "Adds a path that roles can follow", |w| scene_text::add(w, &NewThing::Path);
     AddMark => When::Scene, "Add mark", [], "Adds a place to which roles can go", |w| scene_text::add(w, &NewThing::Mark);
     AddSceneSound => When::Scene, "Add sound…", [], "Adds a sound to the scene, which begins at the playhead (audio, music)", |w| Some(Effect::Choose(FileChoice::SceneSound, w.read().model_folder()));

@@ -22,13 +22,13 @@ use super::super::keys::{KeysRequest, TimeScale, TimeWindow};
 use super::super::request::Request;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, transport, widgets};
-use super::SceneRequest;
+use super::{NOT_DRAWN, SceneRequest, is_of_effect};
 use crate::panels::panel::PanelSubject;
 use drag::BarDragging;
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLanes};
 use dragonfly_document::SceneView;
 use dragonfly_picture::between;
-use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
+use egui::{CornerRadius, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2};
 pub use lane_layout::{SceneBarPart, SceneHit, SceneLaneLayout};
 use paint::BarContents;
 pub use paint::mixed_part;
@@ -102,6 +102,14 @@ impl Panel for SceneTimeline {
     }
 }
 
+/// Adds a hint to the bars of effects: they are not drawn.
+fn note_of_effect(response: &Response, drag: &BarDragging, sheet: &SceneSheet<'_>) {
+    let Some(SceneHit::Bar { action, .. }) = drag.hovered().filter(|_| !drag.is_busy()) else { return };
+    if sheet.lanes.bar_of(action).is_some_and(|(lane, _)| is_of_effect(lane)) {
+        response.clone().on_hover_text_at_pointer(NOT_DRAWN);
+    }
+}
+
 impl SceneTimeline {
     fn lanes(
         &mut self,
@@ -172,6 +180,7 @@ impl SceneTimeline {
         self.drag.update(ui, &response, &sheet, requests);
         take_drop::update(ui, &painter, &sheet, requests);
         self.menu.show(&response, &self.drag, &sheet, requests);
+        note_of_effect(&response, &self.drag, &sheet);
         ruler::show(&mut self.scrub, ui, &painter, &sheet, &mut moved);
         if context.keys.range().is_some() {
             dope::shade(&painter, canvas, &scale, context, sheet.theme);
