@@ -2,7 +2,7 @@
 
 use crate::scene_bench::{FOXES, new_lines, scene, shared, text};
 use crate::workbench::Window;
-use dragonfly::panels::commands::Id;
+use dragonfly::panels::commands::{self, Id};
 use dragonfly::panels::keys::TimeWindow;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request, State};
@@ -56,6 +56,50 @@ fn the_keys_that_hide_bones_hide_things_of_a_scene() {
     run(&mut window, Id::LockBones);
     assert!(!window.state().state.read().scene_editing.is_locked("anna"));
     assert_eq!(text(&window), FOXES, "the script stays as it is");
+}
+
+#[test]
+fn undo_after_hiding_or_locking_shows_and_unlocks_and_leaves_the_edit_before_it() {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::AddMark);
+    let edited = text(&window);
+    select(&mut window, &["ben"]);
+    run(&mut window, Id::HideSelected);
+    run(&mut window, Id::LockBones);
+    let is_locked = |window: &Window| window.state().state.read().scene_editing.is_locked("ben");
+    assert!(is_hidden(&window, "ben") && is_locked(&window));
+    run(&mut window, Id::Undo);
+    assert!(is_hidden(&window, "ben") && !is_locked(&window));
+    run(&mut window, Id::Undo);
+    assert!(!is_hidden(&window, "ben"));
+    assert_eq!(text(&window), edited, "the edit before it stays");
+    for _ in 0..2 {
+        run(&mut window, Id::Redo);
+    }
+    assert!(is_hidden(&window, "ben") && is_locked(&window));
+    // Steps of the history and those between them are undone in their order.
+    run(&mut window, Id::AddMark);
+    for _ in 0..3 {
+        run(&mut window, Id::Undo);
+    }
+    assert!(!is_hidden(&window, "ben") && text(&window) == edited);
+    run(&mut window, Id::Undo);
+    assert_eq!(text(&window), FOXES);
+    // Undo of a new step does not show things that were hidden after a step that is gone.
+    run(&mut window, Id::AddMark);
+    run(&mut window, Id::Undo);
+    assert!(!is_hidden(&window, "ben") && text(&window) == FOXES);
+}
+
+#[test]
+fn the_menu_says_what_undo_is_about_after_hiding() {
+    let mut window = scene(FOXES).window();
+    select(&mut window, &["ben"]);
+    run(&mut window, Id::HideSelected);
+    let title = |window: &Window| commands::title(&window.state().state.read(), Id::Undo).into_owned();
+    assert_eq!(title(&window), "Undo Hide");
+    run(&mut window, Id::Undo);
+    assert_eq!(title(&window), "Undo");
 }
 
 #[test]

@@ -54,8 +54,8 @@ pub(in crate::panels) fn perform(workspace: &mut Workspace, request: SceneReques
         SceneRequest::SelectAction(action) => workspace.scene.select_action(action),
         SceneRequest::SelectActions(actions, choice) => workspace.scene.select_actions(&actions, choice),
         SceneRequest::Cursor(at) => workspace.scene.select_at(at),
-        SceneRequest::Hide(things, hide) => workspace.scene.hide(things, hide),
-        SceneRequest::Lock(things, lock) => workspace.scene.lock(things, lock),
+        SceneRequest::Hide(things, hide) => set_hidden(workspace, things, hide),
+        SceneRequest::Lock(things, lock) => set_locked(workspace, things, lock),
         SceneRequest::Rename(thing) => rename_thing(workspace, thing),
         SceneRequest::Window(window) => workspace.scene.set_window(window),
         SceneRequest::Refused(reason) => workspace.say(MessageSeverity::Info, reason),
@@ -171,6 +171,18 @@ pub(super) fn follow(workspace: &mut Workspace, answered: u64) {
     }
 }
 
+/// Hides things or shows them: a step of undo, though none of the document.
+fn set_hidden(workspace: &mut Workspace, things: Vec<Box<str>>, hide: bool) {
+    let done = workspace.model.view().map_or(0, |view| view.history.done);
+    workspace.scene.hide(things, hide, done);
+}
+
+/// Locks things or unlocks them: a step of undo, though none of the document.
+fn set_locked(workspace: &mut Workspace, things: Vec<Box<str>>, lock: bool) {
+    let done = workspace.model.view().map_or(0, |view| view.history.done);
+    workspace.scene.lock(things, lock, done);
+}
+
 /// Hides the selected things, or all others.
 pub(in crate::panels) fn hide(workspace: &mut Workspace, others: bool) {
     let hidden = match others {
@@ -180,7 +192,7 @@ pub(in crate::panels) fn hide(workspace: &mut Workspace, others: bool) {
             all.into_iter().filter(|id| !workspace.scene.is_selected(id)).collect()
         }
     };
-    workspace.scene.hide(hidden, true);
+    set_hidden(workspace, hidden, true);
 }
 
 /// Shows all hidden things, and selects them.
@@ -189,7 +201,7 @@ pub(in crate::panels) fn show_all(workspace: &mut Workspace) {
     if hidden.is_empty() {
         return workspace.say(MessageSeverity::Info, "Nothing is hidden");
     }
-    workspace.scene.hide(hidden.clone(), false);
+    set_hidden(workspace, hidden.clone(), false);
     workspace.scene.select_things(&hidden, Choice::Replace);
 }
 
@@ -197,7 +209,7 @@ pub(in crate::panels) fn show_all(workspace: &mut Workspace) {
 pub(in crate::panels) fn toggle_lock(workspace: &mut Workspace) {
     let things = workspace.scene.things().to_vec();
     let lock = !things.iter().all(|id| workspace.scene.is_locked(id));
-    workspace.scene.lock(things, lock);
+    set_locked(workspace, things, lock);
 }
 
 /// Returns the ids of all things of the scene.

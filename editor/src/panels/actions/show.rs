@@ -90,6 +90,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         if !change_summary::same_steps(&old.history, &new.history) {
             let kept = old.history.done.min(new.history.done.saturating_sub(1));
             workspace.trail.forget_after(kept);
+            workspace.scene.forget_hiding_after(kept);
         }
         let scale =
             ShownScale { frame_rate: workspace.frame_rate.get(), millimeters: workspace.unit.millimeters() };
@@ -202,8 +203,7 @@ fn recall_marks(workspace: &mut Workspace) {
             hidden_things,
             locked_things,
         } = recalled;
-        workspace.scene.hide(hidden_things, true);
-        workspace.scene.lock(locked_things, true);
+        workspace.scene.recall_marks(hidden_things, locked_things);
         for (flag, bone) in flags {
             workspace.keys.set_flag(flag, bone, true);
         }

@@ -1,11 +1,11 @@
-//! Undo and redo: of selections where that is wanted, and of steps of the history.
+//! Undo and redo: of what is hidden and locked in a scene, of selections where that is wanted, and of steps of the history.
 
 use crate::panels::request::Effect;
 use crate::panels::selection_trail::WalkDirection;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::Change;
 
-/// Undoes the last selection, if undo includes selections and one was made since the last step, otherwise the last step.
+/// Undoes what was hidden or locked since the last step, or the last selection, if undo includes selections and one was made since, otherwise the last step.
 pub(in crate::panels) fn undo(workspace: &mut Workspace) -> Option<Effect> {
     if walk(workspace, WalkDirection::Back) { None } else { Some(Effect::Change(Change::Undo)) }
 }
@@ -38,6 +38,9 @@ pub(in crate::panels) fn follow_selection(workspace: &mut Workspace) {
 fn walk(workspace: &mut Workspace, direction: WalkDirection) -> bool {
     follow_selection(workspace);
     let Some(done) = workspace.model.view().map(|view| view.history.done) else { return false };
+    if workspace.read().scene().is_some() && workspace.scene.walk_hiding(done, direction) {
+        return true;
+    }
     let Some(selection) = workspace.trail.walk(done, direction) else { return false };
     workspace.restore_selection(&selection);
     true

@@ -126,9 +126,18 @@ pub fn title(panels: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
     let ways = [(Id::Undo, WalkDirection::Back), (Id::Redo, WalkDirection::Forward)];
     let label = ways.iter().position(|(own, _)| *own == id).and_then(|at| {
         let history = &panels.view?.history;
-        if panels.trail.leads(history.done, ways[at].1) { Some("selection") } else { history.labels()[at] }
+        match next_hiding(panels, history.done, ways[at].1) {
+            Some(label) => Some(label),
+            None if panels.trail.leads(history.done, ways[at].1) => Some("selection"),
+            None => history.labels()[at],
+        }
     });
     label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
+}
+
+/// Returns the label of the change of what is hidden or locked in the scene that is undone or redone next; `None` where there is none.
+fn next_hiding(panels: &PanelContext<'_>, done: usize, direction: WalkDirection) -> Option<&'static str> {
+    panels.scene().and_then(|_| panels.scene_editing.next_hiding(done, direction))
 }
 
 /// Returns the first shortcut as text, `Ctrl+O`, or the first one over the timeline and the curves, or that of the command for models

@@ -92,11 +92,10 @@ impl When {
             Self::Pending => panels.pending_times().next().is_some(),
             Self::Pinned => pinned,
             Self::PinnedInTake => pinned && take,
-            Self::Undo => history.is_some_and(|history| {
-                history.done > 0 || panels.trail.leads(history.done, WalkDirection::Back)
-            }),
+            Self::Undo => history
+                .is_some_and(|history| history.done > 0 || leads(panels, history.done, WalkDirection::Back)),
             Self::Redo => history.is_some_and(|history| {
-                history.done < history.steps.len() || panels.trail.leads(history.done, WalkDirection::Forward)
+                history.done < history.steps.len() || leads(panels, history.done, WalkDirection::Forward)
             }),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Scene => panels.scene().is_some(),
@@ -153,4 +152,10 @@ impl When {
             Self::Paused => "The viewport is not paused",
         }
     }
+}
+
+/// Returns whether undo or redo changes what is hidden or selected, without a step of the history.
+fn leads(panels: &PanelContext<'_>, done: usize, direction: WalkDirection) -> bool {
+    let hiding = panels.scene().and_then(|_| panels.scene_editing.next_hiding(done, direction));
+    hiding.is_some() || panels.trail.leads(done, direction)
 }

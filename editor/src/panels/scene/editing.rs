@@ -2,6 +2,7 @@
 
 use super::action_selection::ActionSelection;
 use super::follow::new_actions;
+use super::hide_and_lock::{HideAndLock, SceneMarks};
 use super::line_editing::{LineEditing, MarkedThings};
 use super::newest_text::NewestText;
 use super::renamed_things::RenamedThings;
@@ -10,6 +11,7 @@ use super::sounds::SceneSounds;
 use super::thing_selection::ThingSelection;
 use super::thumbnails::SceneThumbnails;
 use crate::panels::keys::TimeWindow;
+use crate::panels::selection_trail::WalkDirection;
 use dragonfly_anim::stage::lanes::SceneLanes;
 use dragonfly_anim::stage::project::StageProject;
 use dragonfly_anim::stage::script::StageScript;
@@ -18,19 +20,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{Edit, TextRef};
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{Change, MissingFile, SceneView};
-use std::collections::BTreeSet;
 use std::sync::Arc;
-
-/// The things of a scene that are hidden and locked.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::panels) struct SceneMarks<'a> {
-    /// The ids of the hidden things.
-    pub(in crate::panels) hidden: &'a BTreeSet<Box<str>>,
-    /// The ids of the locked things.
-    pub(in crate::panels) locked: &'a BTreeSet<Box<str>>,
-    /// Number of changes of them.
-    pub(in crate::panels) version: u64,
-}
 
 /// The state of the editor of scenes; it contains nothing of the document.
 #[derive(Clone, Debug)]
@@ -38,10 +28,7 @@ pub struct SceneEditing {
     things: ThingSelection,
     /// The selected actions of the script that is shown.
     actions: ActionSelection,
-    hidden: BTreeSet<Box<str>>,
-    locked: BTreeSet<Box<str>>,
-    /// Number of changes of what is hidden and locked.
-    marks: u64,
+    hiding: HideAndLock,
     renaming: Option<Box<str>>,
     /// The things that are selected as soon as the script has them.
     awaited: Vec<Box<str>>,
@@ -69,9 +56,7 @@ impl Default for SceneEditing {
         Self {
             things: ThingSelection::default(),
             actions: ActionSelection::default(),
-            hidden: BTreeSet::new(),
-            locked: BTreeSet::new(),
-            marks: 0,
+            hiding: HideAndLock::default(),
             renaming: None,
             awaited: Vec::new(),
             awaited_actions: None,
@@ -128,17 +113,17 @@ impl SceneEditing {
 
     /// Returns whether a thing is hidden.
     pub fn is_hidden(&self, thing: &str) -> bool {
-        self.hidden.contains(thing)
+        self.hiding.hidden().contains(thing)
     }
 
     /// Returns the ids of the hidden things.
     pub fn hidden(&self) -> impl Iterator<Item = &str> {
-        self.hidden.iter().map(|id| &**id)
+        self.hiding.hidden().iter().map(|id| &**id)
     }
 
     /// Returns whether a thing is locked: gestures do not change it.
     pub fn is_locked(&self, thing: &str) -> bool {
-        self.locked.contains(thing)
+        self.hiding.locked().contains(thing)
     }
 
     /// Returns why a change of these things is refused: one of them is locked.
@@ -208,7 +193,7 @@ impl SceneEditing {
         is_dragging: bool,
         of: Option<RigidPlace>,
     ) {
-        let (selected, hidden, locked) = (self.things.list(), &self.hidden, &self.locked);
+        let (selected, hidden, locked) = (self.things.list(), self.hiding.hidden(), self.hiding.locked());
         self.lines.update(scene, MarkedThings { selected, hidden, locked }, is_dragging, of);
     }
 
@@ -277,17 +262,44 @@ impl SceneEditing {
 
     /// Returns what is hidden and locked, as it is remembered for a file.
     pub(in crate::panels) fn marks(&self) -> SceneMarks<'_> {
-        SceneMarks { hidden: &self.hidden, locked: &self.locked, version: self.marks }
+        self.hiding.marks()
     }
 
-    pub(in crate::panels) fn hide(&mut self, things: Vec<Box<str>>, hide: bool) {
-        self.marks += 1;
-        set(&mut self.hidden, things, hide);
+    /// Hides and locks the things that a file was left with.
+    pub(in crate::panels) fn recall_marks(&mut self, hidden: Vec<Box<str>>, locked: Vec<Box<str>>) {
+        self.hiding.hide(hidden, true);
+        self.hiding.lock(locked, true);
     }
 
-    pub(in crate::panels) fn lock(&mut self, things: Vec<Box<str>>, lock: bool) {
-        self.marks += 1;
-        set(&mut self.locked, things, lock);
+    /// Hides things or shows them, as a step of undo after the first `done` ones of the history.
+    pub(in crate::panels) fn hide(&mut self, things: Vec<Box<str>>, hide: bool, done: usize) {
+        let label = if hide { "Hide" } else { "Show" };
+        self.hiding.step(done, label, |hiding| hiding.hide(things, hide));
+    }
+
+    /// Locks things or unlocks them, as a step of undo after the first `done` ones of the history.
+    pub(in crate::panels) fn lock(&mut self, things: Vec<Box<str>>, lock: bool, done: usize) {
+        let label = if lock { "Lock" } else { "Unlock" };
+        self.hiding.step(done, label, |hiding| hiding.lock(things, lock));
+    }
+
+    /// Returns the label of the change of what is hidden or locked that undo or redo is about; `None` where it is about a step of the history.
+    pub(in crate::panels) fn next_hiding(
+        &self,
+        done: usize,
+        direction: WalkDirection,
+    ) -> Option<&'static str> {
+        self.hiding.next(done, direction)
+    }
+
+    /// Undoes or redoes a change of what is hidden or locked. Returns whether there was one after the first `done` steps of the history.
+    pub(in crate::panels) fn walk_hiding(&mut self, done: usize, direction: WalkDirection) -> bool {
+        self.hiding.walk(done, direction)
+    }
+
+    /// Forgets the changes of what is hidden and locked after the first `done` steps of the history: other steps follow those now.
+    pub(in crate::panels) fn forget_hiding_after(&mut self, done: usize) {
+        self.hiding.forget_after(done);
     }
 
     pub(in crate::panels) fn rename(&mut self, thing: Option<Box<str>>) {
@@ -354,7 +366,7 @@ impl SceneEditing {
             self.actions.follow(old, &script);
             renamed = RenamedThings::between(old, &script);
             self.things.rename(&renamed);
-            [&mut self.hidden, &mut self.locked].into_iter().for_each(|of| renamed.rename_in(of));
+            self.hiding.rename(&renamed);
             self.things.retain(|id| script.thing_called(id).is_some());
         }
         if !self.awaited.is_empty() && self.awaited.iter().all(|id| script.thing_called(id).is_some()) {
@@ -441,15 +453,5 @@ impl SceneEditing {
         self.awaited_actions = None;
         self.script.refused();
         self.project.refused();
-    }
-}
-
-fn set(of: &mut BTreeSet<Box<str>>, things: Vec<Box<str>>, on: bool) {
-    for thing in things {
-        if on {
-            of.insert(thing);
-        } else {
-            of.remove(&thing);
-        }
     }
 }
