@@ -116,6 +116,7 @@ mod scene_paths;
 mod scene_point_edits;
 mod scene_points;
 mod scene_rate;
+mod scene_removal;
 mod scene_script;
 mod scene_second_view;
 mod scene_selection;

@@ -1,6 +1,6 @@
 //! Commands on the selected action of a scene.
 
-use super::scene_text::{gesture, step as step_of_texts};
+use super::scene_text::{addition, gesture, step as step_of_texts};
 use super::{keys, playback, scene_lines, scene_path_points};
 use crate::panels::request::Effect;
 use crate::panels::scene::shots::shots_of;
@@ -105,14 +105,14 @@ pub(in crate::panels) fn loop_selected(workspace: &mut Workspace) {
     keys::set_range(workspace, Some(range));
 }
 
-/// Duplicates the selected actions after the last of them ends, or the selected things, or the selected line.
+/// Duplicates the selected actions after the last of them ends, or the selected things, or the selected line. The copies are selected.
 pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
     if workspace.scene.lines().selected().is_some() {
         return scene_lines::duplicate(workspace);
     }
     if workspace.scene.action().is_some() {
         let actions = unlocked_actions(workspace)?;
-        return gesture(workspace, ScriptLabel::Duplicate, ChangedThings::Actions(&actions), |base| {
+        return addition(workspace, ScriptLabel::Duplicate, ChangedThings::Actions(&actions), |base| {
             duplicate_clips(&base.scene(), &actions)
         });
     }
@@ -206,10 +206,10 @@ fn duplicated(base: &SceneBase, things: &[Box<str>]) -> Result<(StageScript, Vec
     Ok((script, copies))
 }
 
-/// Inserts a shot of the camera after the one that is seen at the playhead.
+/// Inserts a shot of the camera after the one that is seen at the playhead, and selects it.
 pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
-    gesture(workspace, ScriptLabel::AddShot, ChangedThings::None, |base| {
+    addition(workspace, ScriptLabel::AddShot, ChangedThings::None, |base| {
         let cameras: Vec<&str> = base
             .plan
             .things()
@@ -230,10 +230,10 @@ pub(in crate::panels) fn cut_to_next(workspace: &mut Workspace) -> Option<Effect
     })
 }
 
-/// Inserts a shot of the selected camera.
+/// Inserts a shot of the selected camera, and selects it.
 pub(in crate::panels) fn cut_to_selected(workspace: &mut Workspace) -> Option<Effect> {
     let (at, camera) = (workspace.read().scene_time(), workspace.scene.things().last()?.clone());
-    gesture(workspace, ScriptLabel::AddShot, ChangedThings::None, |base| cut_to(&base.scene(), &camera, at))
+    addition(workspace, ScriptLabel::AddShot, ChangedThings::None, |base| cut_to(&base.scene(), &camera, at))
 }
 
 /// Moves the playhead to the start of the next shot, or of the one before the playhead.

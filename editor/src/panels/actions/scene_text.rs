@@ -50,6 +50,25 @@ pub(super) fn gesture(
     step(workspace, |base| Ok(base.step(act(base)?, label, things)))
 }
 
+/// Makes a gesture that adds actions a step of the history, as [`gesture`] does, and selects them.
+pub(super) fn addition(
+    workspace: &mut Workspace,
+    label: ScriptLabel,
+    things: ChangedThings<'_>,
+    act: impl FnOnce(&SceneBase) -> Result<String, GestureRefusal>,
+) -> Option<Effect> {
+    let mut text = None;
+    let effect = step(workspace, |base| {
+        let change = base.step(act(base)?, label, things);
+        text = Some(Arc::from(&*change.text));
+        Ok(change)
+    });
+    if let Some(text) = text.filter(|_| effect.is_some()) {
+        workspace.scene.await_actions(text);
+    }
+    effect
+}
+
 /// Makes a change of the scene as it is now a step of the history: of its script, and of the project.
 pub(super) fn step(
     workspace: &mut Workspace,

@@ -3,7 +3,7 @@
 use super::bar_menu;
 use super::drag::BarDragging;
 use super::lane_layout::SceneHit;
-use super::menu_entry::{addition, gesture};
+use super::menu_entry::addition;
 use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
@@ -100,7 +100,7 @@ fn attach_entries(
 ) {
     let at = sheet.context.scene_time();
     submenu(ui, &*holder.id, |ui| {
-        gesture(
+        addition(
             ui,
             "The whole",
             (ScriptLabel::Attach, ChangedThings::Thing(who)),
@@ -112,7 +112,7 @@ fn attach_entries(
         egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
             for bone in bones.iter().filter(|bone| !bone.name.is_empty()) {
                 let to = format!("{}.{}", holder.id, bone.name);
-                gesture(
+                addition(
                     ui,
                     &bone.name,
                     (ScriptLabel::Attach, ChangedThings::Thing(who)),
@@ -131,7 +131,7 @@ fn general(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {
     let things = sheet.scene.plan.as_ref().map_or(&[][..], |plan| plan.things());
     submenu(ui, "Cut at the playhead to", |ui| {
         for camera in things.iter().filter(|thing| thing.kind == "camera") {
-            gesture(ui, &camera.id, (ScriptLabel::AddShot, ChangedThings::None), sheet, requests, |scene| {
+            addition(ui, &camera.id, (ScriptLabel::AddShot, ChangedThings::None), sheet, requests, |scene| {
                 cut_to(scene, &camera.id, at)
             });
         }
