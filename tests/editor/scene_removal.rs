@@ -6,13 +6,23 @@ use crate::workbench::Window;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
+use dragonfly::panels::status::MessageSeverity;
+use dragonfly_document::bones::Choice;
 
+const CLOSE: usize = 3;
 const LOOKS: usize = 5;
 const TITLE: usize = 10;
 
 fn select_action(window: &mut Window, action: usize) {
     window.state_mut().state.execute(Request::Scene(SceneRequest::SelectAction(Some(action))));
     window.run_steps(2);
+}
+
+/// Returns the newest message, and whether it is a warning.
+fn said(window: &Window) -> (String, bool) {
+    let read = window.state().state.read();
+    let message = read.status.last().expect("a message");
+    (message.text.clone(), message.level == MessageSeverity::Warning)
 }
 
 /// Returns kinds and names of the selected bars.
@@ -26,6 +36,29 @@ fn selected(window: &Window) -> Vec<(&'static str, String)> {
 fn selected_text(window: &mut Window, action: usize) -> &'static str {
     select_action(window, action);
     if action == TITLE { "<title text=\"The End\" begin=\"4\"" } else { "<play id=\"looks\"" }
+}
+
+#[test]
+fn a_clip_on_which_a_shot_depends_is_not_deleted_and_the_shot_is_named_and_selected() {
+    let mut window = scene(FOXES).window();
+    select_action(&mut window, LOOKS);
+    run(&mut window, Id::SceneDelete);
+    assert_eq!(text(&window), FOXES);
+    let (message, is_warning) = said(&window);
+    assert!(is_warning && message.contains("the shot of close") && !message.contains('<'), "{message}");
+    assert_eq!(window.state().state.read().scene_editing.actions(), [CLOSE]);
+}
+
+#[test]
+fn a_role_at_which_a_camera_looks_is_not_deleted_and_the_camera_is_named_and_selected() {
+    let mut window = scene(FOXES).window();
+    let ben = SceneRequest::SelectThings(vec!["ben".into()], Choice::Replace);
+    window.state_mut().state.execute(Request::Scene(ben));
+    run(&mut window, Id::SceneDelete);
+    assert_eq!(text(&window), FOXES);
+    let (message, is_warning) = said(&window);
+    assert!(is_warning && message.contains("the camera close"), "{message}");
+    assert_eq!(window.state().state.read().scene_editing.things(), [Box::from("close")]);
 }
 
 #[test]

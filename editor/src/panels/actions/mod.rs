@@ -37,6 +37,7 @@ pub(super) mod scene_attach;
 pub(super) mod scene_camera;
 pub(super) mod scene_clipboard;
 pub(super) mod scene_clips;
+mod scene_dependents;
 pub(super) mod scene_files;
 pub(super) mod scene_focus;
 mod scene_gizmo;

@@ -1,6 +1,7 @@
 //! Commands on the selected action of a scene.
 
-use super::scene_text::{addition, gesture, step as step_of_texts};
+use super::scene_dependents::{RevealedUser, user_of_actions, user_of_things};
+use super::scene_text::{addition, gesture, step as step_of_texts, try_step};
 use super::{keys, playback, scene_lines, scene_path_points};
 use crate::panels::request::Effect;
 use crate::panels::scene::shots::shots_of;
@@ -17,6 +18,7 @@ use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::script_that_names;
+use std::sync::Arc;
 
 fn followers(workspace: &Workspace) -> Followers {
     if workspace.scene.ripple() { Followers::Follow } else { Followers::Stay }
@@ -141,8 +143,13 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
     if workspace.scene.action().is_some() {
         let actions = unlocked_actions(workspace)?;
         let followers = if lift { Followers::Stay } else { followers(workspace) };
-        let effect = gesture(workspace, ScriptLabel::Delete, ChangedThings::Actions(&actions), |base| {
-            delete_clips(&base.scene(), &actions, followers)
+        let effect = try_step(workspace, |base| {
+            let text = delete_clips(&base.scene(), &actions, followers)?;
+            Ok(base.step(text, ScriptLabel::Delete, ChangedThings::Actions(&actions)))
+        });
+        let effect = effect.unwrap_or_else(|refusal| {
+            let user = shown_script(workspace).and_then(|script| user_of_actions(&script, &actions));
+            refuse_deletion(workspace, &refusal, user)
         });
         if effect.is_some() {
             // None of those that are left may be taken for one of them, and the same key must not delete the thing that did them.
@@ -159,7 +166,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
     }
     let scene = workspace.model.view()?.scene.clone()?;
     let mut actions = 0;
-    let effect = step_of_texts(workspace, |base| {
+    let effect = try_step(workspace, |base| {
         let mut ids: Vec<&str> = Vec::new();
         for id in &things {
             let Some(element) = base.script.thing_element(id) else { continue };
@@ -176,6 +183,10 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         actions = deleted;
         Ok(base.change(&script, ScriptLabel::Delete, None, ChangedThings::Things(&things)))
     });
+    let effect = effect.unwrap_or_else(|refusal| {
+        let user = shown_script(workspace).and_then(|script| user_of_things(&script, &things));
+        refuse_deletion(workspace, &refusal, user)
+    });
     if effect.is_some() && actions > 0 {
         let what = if actions == 1 {
             "1 action that names".to_owned()
@@ -186,6 +197,35 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         workspace.say(MessageSeverity::Info, text);
     }
     effect
+}
+
+/// Returns the script that is shown.
+fn shown_script(workspace: &Workspace) -> Option<Arc<StageScript>> {
+    workspace.model.view()?.scene.as_ref()?.script.clone()
+}
+
+/// Warns that something cannot be deleted, and selects what depends on it, so that it can be changed first.
+fn refuse_deletion(
+    workspace: &mut Workspace,
+    refusal: &GestureRefusal,
+    user: Option<RevealedUser>,
+) -> Option<Effect> {
+    let text = match &user {
+        Some(user) => {
+            let name = user.name(workspace.scene.lanes());
+            format!(
+                "Nothing was deleted: {name} depends on it and is selected now. Change or delete that first"
+            )
+        }
+        None => format!("Nothing was deleted: {refusal}"),
+    };
+    match user {
+        Some(RevealedUser::Action(action)) => workspace.scene.select_action(Some(action)),
+        Some(RevealedUser::Thing { id, .. }) => workspace.scene.select_things(&[id], Choice::Replace),
+        None => {}
+    }
+    workspace.say(MessageSeverity::Warning, text);
+    None
 }
 
 /// Returns the script with copies of things, and the ids of the copies.

@@ -74,15 +74,27 @@ pub(super) fn step(
     workspace: &mut Workspace,
     act: impl FnOnce(&SceneBase) -> Result<ScriptChange, GestureRefusal>,
 ) -> Option<Effect> {
-    let scene = Arc::clone(workspace.model.view()?.scene.as_ref()?);
-    let base = SceneBase::of(&scene, workspace.scene.text(&scene));
-    match base.and_then(|base| act(&base)) {
-        Ok(change) => change_text(workspace, &change),
+    match try_step(workspace, act) {
+        Ok(effect) => effect,
         Err(refusal) => {
             workspace.say(MessageSeverity::Info, refusal.to_string());
             None
         }
     }
+}
+
+/// Makes a change of the scene as it is now a step of the history, as [`step`] does.
+///
+/// # Errors
+///
+/// The change is impossible. No message is added.
+pub(super) fn try_step(
+    workspace: &mut Workspace,
+    act: impl FnOnce(&SceneBase) -> Result<ScriptChange, GestureRefusal>,
+) -> Result<Option<Effect>, GestureRefusal> {
+    let Some(scene) = workspace.model.view().and_then(|view| view.scene.clone()) else { return Ok(None) };
+    let change = act(&SceneBase::of(&scene, workspace.scene.text(&scene))?)?;
+    Ok(change_text(workspace, &change))
 }
 
 /// Adds a thing to the cast and selects it.
