@@ -88,3 +88,16 @@ fn a_shot_that_is_inserted_at_the_playhead_is_selected() {
     assert_eq!(new_lines(FOXES, &text(&window)), [r#"<shot who="close" begin="1"/>"#]);
     assert_eq!(selected(&window), [("shot", "close".to_owned())]);
 }
+
+#[test]
+fn a_title_is_added_to_a_scene_that_has_none_and_is_selected() {
+    let script = FOXES.replace("    <title text=\"The End\" begin=\"4\" dur=\"1\" fade-in=\"0.5\"/>\n", "");
+    let mut window = scene(&script).window();
+    window.state_mut().state.execute(Request::Seek(2.0));
+    run(&mut window, Id::AddTitle);
+    let line = r#"<title dur="2" text="Title" begin="2"/>"#;
+    assert_eq!(new_lines(&script, &text(&window)), [line]);
+    assert_eq!(selected(&window), [("title", "Title".to_owned())]);
+    run(&mut window, Id::SceneDelete);
+    assert_eq!(text(&window), script);
+}

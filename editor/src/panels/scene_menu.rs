@@ -21,6 +21,7 @@ const KINDS: [(&str, &[Id]); 5] = [
             Id::AddPath,
             Id::AddMark,
             Id::AddSceneSound,
+            Id::AddTitle,
         ],
     ),
     (

@@ -9,11 +9,12 @@ use crate::panels::scene::{ChangedThings, SceneBase, move_label};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureRefusal, SequenceOrder, cut_to, delete_clips, delete_things, duplicate_clips,
-    duplicate_thing, in_scene_texts, move_clips, spliced_script, trim_end, trim_start,
+    Followers, GestureRefusal, SequenceOrder, add_new_action, cut_to, delete_clips, delete_things,
+    duplicate_clips, duplicate_thing, in_scene_texts, move_clips, spliced_script, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::SceneBar;
 use dragonfly_anim::stage::script::{ElementOrigin, StageScript};
+use dragonfly_anim::stage::table::NEW_ACTIONS;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::ScriptLabel;
@@ -244,6 +245,15 @@ fn duplicated(base: &SceneBase, things: &[Box<str>]) -> Result<(StageScript, Vec
     let copies =
         script.things().filter_map(|thing| thing.value("id")).filter(is_new).map(Box::from).collect();
     Ok((script, copies))
+}
+
+/// Adds a title at the playhead, and selects it.
+pub(in crate::panels) fn add_title(workspace: &mut Workspace) -> Option<Effect> {
+    let at = workspace.read().scene_time();
+    let row = NEW_ACTIONS.iter().find(|row| row.element == "title")?;
+    addition(workspace, ScriptLabel::AddAction, ChangedThings::None, |base| {
+        add_new_action(&base.scene(), row, None, None, at)
+    })
 }
 
 /// Inserts a shot of the camera after the one that is seen at the playhead, and selects it.

@@ -20,6 +20,7 @@ commands! {
     AddPath => When::Scene, "Add path", [], "Adds a path that roles can follow", |w| scene_text::add(w, &NewThing::Path);
     AddMark => When::Scene, "Add mark", [], "Adds a place to which roles can go", |w| scene_text::add(w, &NewThing::Mark);
     AddSceneSound => When::Scene, "Add sound…", [], "Adds a sound to the scene, which begins at the playhead (audio, music)", |w| Some(Effect::Choose(FileChoice::SceneSound, w.read().model_folder()));
+    AddTitle => When::Scene, "Add title", [], "Adds a title at the playhead, a text over the image", scene_clips::add_title;
     LineAsPath => When::Scene, "Use line as path", [], "Adds a path along the selected line, which roles can follow", scene_lines::use_as_path;
     WalkAlong => When::Thing, "Walk along path", [], "Lets the selected role follow the selected path from the playhead on, with its take for walking; cameras, props, lights and effects can follow it too", scene_lines::walk_along;
     DeleteLine => When::Scene, "Delete line", [], "Deletes the selected lines of the project", scene_lines::delete;

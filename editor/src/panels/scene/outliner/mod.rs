@@ -253,7 +253,11 @@ pub(super) fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Ve
         item(ui, context, id, false, requests);
     }
     ui.separator();
-    for id in [Id::AddSceneCamera, Id::AddLight, Id::AddEffect, Id::AddPath, Id::AddMark, Id::AddSceneSound] {
+    for id in [Id::AddSceneCamera, Id::AddLight, Id::AddEffect, Id::AddPath, Id::AddMark] {
+        item(ui, context, id, false, requests);
+    }
+    ui.separator();
+    for id in [Id::AddSceneSound, Id::AddTitle] {
         item(ui, context, id, false, requests);
     }
 }
