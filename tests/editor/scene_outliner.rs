@@ -66,6 +66,20 @@ fn an_added_thing_is_one_line_and_selected() {
 }
 
 #[test]
+fn the_rows_stay_in_their_places_while_things_are_added_and_the_search_finds_one_of_few() {
+    let mut window = window();
+    let top = |window: &Window| window.get_by_label("anna, role").rect().top();
+    let before = top(&window);
+    for _ in 0..6 {
+        run(&mut window, Id::AddMark);
+        assert_eq!(top(&window), before);
+    }
+    let mut window = self::window();
+    type_into(&mut window, "Find a thing", "be", Key::Enter);
+    assert!(window.query_by_label("ben, role").is_some() && window.query_by_label("anna, role").is_none());
+}
+
+#[test]
 fn lines_are_listed_while_a_search_finds_no_thing_and_in_a_project_without_things() {
     let lines = r#"<lines version="1"><line id="note" points="0 0 0  1 0 0  2 0 0  3 0 0"/></lines>"#;
     let window = project(r#"<script version="1"/>"#, lines).window();

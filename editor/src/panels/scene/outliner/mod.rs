@@ -38,9 +38,6 @@ const KINDS: [(&str, &str); 7] = [
     ("mark", "Marks"),
 ];
 
-/// Number of things from which on a search field is shown.
-const SEARCHED: usize = 12;
-
 /// The list of things.
 #[derive(Debug, Default)]
 pub struct Outliner {
@@ -90,12 +87,9 @@ impl Panel for Outliner {
         if script.things().len() == 0 && !has_lines {
             return widgets::empty(ui, "The scene is empty", "Drop a model file here, or add a thing above");
         }
-        if script.things().len() > SEARCHED {
-            let focus = context.find && !find::has_focus(ui);
-            search_field::show(ui, &mut self.query, "Find a thing", focus);
-        } else {
-            self.query.clear();
-        }
+        // Also over a short list, so that the rows stay in their places while things are added.
+        let focus = context.find && !find::has_focus(ui);
+        search_field::show(ui, &mut self.query, "Find a thing", focus);
         self.listed.update(script, self.query.trim());
         let active = context.scene_editing.things().last();
         if self.active.as_ref() != active {
