@@ -11,6 +11,7 @@ use dragonfly_anim::data::Transform;
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
 use dragonfly_kit::document::fixture;
+use egui_kittest::kittest::Queryable;
 use glam::{DVec3, Mat4, Vec3};
 
 /// A view of a straight chain: four bones of half a meter, up from the origin.
@@ -127,4 +128,18 @@ fn bones_that_are_no_chain_are_refused_with_the_reason() {
     send(&mut window, InputEvent::MouseMove(pointer));
     send(&mut window, InputEvent::KeyDown(Key::Escape));
     assert_eq!(window.state().state.read().tools.controls().line().use_of(), None);
+}
+
+#[test]
+fn a_bar_in_the_viewport_shows_that_the_pose_line_is_drawn_and_its_keys() {
+    let mut window = chain();
+    select(&mut window, &[0, 1, 2]);
+    for (command, keys) in
+        [(Id::PoseLine, "With Alt: motion path"), (Id::MotionStroke, "over time. Click: corners")]
+    {
+        assert!(window.query_by_label_contains(keys).is_none());
+        run(&mut window, command);
+        assert!(window.query_by_label_contains(keys).is_some(), "{keys}");
+        run(&mut window, command);
+    }
 }

@@ -1,4 +1,4 @@
-//! The options of the tool that draws lines and paths, in a bar at the top of the viewport: on what it draws, in which color, its keys.
+//! The options of the tool that draws lines, paths and poses, in a bar at the top of the viewport: on what it draws, in which color, its keys.
 
 use super::glass::{divider, glass};
 use crate::control::line::{LineSurface, LineUse};
@@ -20,7 +20,7 @@ use egui::{
 /// Heights of the row of options and of the keys below it, points.
 const ROW: f32 = 24.0;
 const KEYS: f32 = 16.0;
-/// Widths of the row of options for lines and for paths, points.
+/// Widths of the row of options for lines, and of the row without options, points.
 const OF_LINES: f32 = 364.0;
 const OF_PATHS: f32 = 160.0;
 /// Least width of the bar; a narrower viewport has none, points.
@@ -34,7 +34,7 @@ const SURFACES: [(Icon, Id, LineSurface); 4] = [
     (Icon::Bone, Id::LinesOnBone, LineSurface::Bone),
 ];
 
-/// Draws the bar with its top left at `place`, while lines or paths of a scene are drawn. Returns its area.
+/// Draws the bar with its top left at `place`, while the tool is used. Returns its area.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -42,12 +42,14 @@ pub(super) fn show(
     context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) -> Option<Rect> {
-    context.scene()?;
-    let (title, row, keys) = match context.tools.controls().line().use_of()? {
-        LineUse::Note => ("Line", OF_LINES, keys(context, true)),
-        LineUse::Path => ("Path on the ground", OF_PATHS, keys(context, false)),
-        LineUse::Pose | LineUse::Motion => return None,
+    let use_of = context.tools.controls().line().use_of()?;
+    let (title, row) = match use_of {
+        LineUse::Note => ("Line", OF_LINES),
+        LineUse::Path => ("Path on the ground", OF_PATHS),
+        LineUse::Pose => ("Pose line", OF_PATHS),
+        LineUse::Motion => ("Motion path", OF_PATHS),
     };
+    let keys = keys(context, use_of);
     let room = rect.right() - place.x - 10.0;
     if room < LEAST {
         return None;
@@ -117,10 +119,14 @@ fn swatch(ui: &mut Ui, color: LineColor, on: bool, requests: &mut Vec<Request>) 
 }
 
 /// Returns what mouse and keys do now.
-fn keys(context: &PanelContext<'_>, erases: bool) -> &'static str {
-    match (context.tools.controls().is_modal(), erases) {
-        (true, _) => "Click: next corner. Enter ends the line, Backspace takes a corner back, Esc cancels",
-        (false, true) => "Drag: freehand, with Shift straight. Click: corners. Ctrl + drag erases. Esc ends",
-        (false, false) => "Drag: freehand, with Shift straight. Click: corners. Esc ends",
+fn keys(context: &PanelContext<'_>, use_of: LineUse) -> &'static str {
+    if context.tools.controls().is_modal() {
+        return "Click: next corner. Double-click or Enter ends the line, Backspace takes a corner back, Esc cancels";
+    }
+    match use_of {
+        LineUse::Note => "Drag: freehand, with Shift straight. Click: corners. Ctrl + drag erases. Esc ends",
+        LineUse::Path => "Drag: freehand, with Shift straight. Click: corners. Esc ends",
+        LineUse::Pose => "Draw the line of action. With Alt: motion path. Click: corners. Esc cancels",
+        LineUse::Motion => "Draw the path of the bone over time. Click: corners. Esc cancels",
     }
 }
