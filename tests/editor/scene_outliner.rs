@@ -1,7 +1,7 @@
 //! The list of things: selected, renamed, hidden, added, deleted.
 
 use crate::scene_bench::{FOXES, looked, new_lines, project, scene, text};
-use crate::workbench::{Window, type_into};
+use crate::workbench::{Window, press, release, type_into};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::file_choice::FileChoice;
 use dragonfly::panels::scene::SceneRequest;
@@ -52,6 +52,24 @@ fn a_new_name_is_written_wherever_the_script_uses_the_old_one() {
     );
     assert_eq!(window.state().steps(), (1, 1));
     assert!(window.query_by_label("bernard, role").is_some());
+}
+
+#[test]
+fn a_double_click_renames_things_of_every_kind_and_a_button_opens_the_model() {
+    for row in ["ben, role", "sun, light"] {
+        let mut window = window();
+        let at = window.get_by_label(row).rect().left_center() + egui::vec2(40.0, 0.0);
+        for _ in 0..2 {
+            press(&mut window, at);
+            release(&mut window, at);
+        }
+        window.run_steps(2);
+        let renamed = window.state().state.read().scene_editing.renaming().map(str::to_owned);
+        assert_eq!(renamed.as_deref(), row.split(',').next());
+    }
+    let window = window();
+    assert!(window.query_by_label("Open the model of ben").is_some());
+    assert!(window.query_by_label("Open the model of sun").is_none(), "a light has none");
 }
 
 #[test]
@@ -139,7 +157,7 @@ fn only_the_rows_in_sight_are_drawn_and_a_name_that_is_typed_is_brought_into_sig
 #[test]
 fn the_hint_of_a_row_is_shown_while_the_pointer_rests_on_it() {
     let mut window = window();
-    for (row, hint) in [("anna, role", "edit its takes and bones"), ("sun, light", "rename")] {
+    for (row, hint) in [("anna, role", "Double-click: rename"), ("sun, light", "Double-click: rename")] {
         window.get_by_label(row).hover();
         window.run_steps(60);
         assert!(window.query_all_by_label_contains(hint).count() == 1, "{row}");

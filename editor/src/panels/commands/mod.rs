@@ -111,6 +111,7 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Click a bone in the list", "Select it; Shift: all up to it, Ctrl: toggle; double-click: frame it"),
     ("Shift + click the eye or the arrow of a bone", "Hide or fold all bones below it as well"),
     ("Double-click a take, layer, marker or event", "Edit its name"),
+    ("Double-click a thing, a lane or a line of a scene", "Edit its name"),
     ("Right-click", "Menu for what is under the pointer"),
 ];
 

@@ -1,6 +1,6 @@
 //! A row of the list: the icon, the name, and switches that hide and lock.
 
-use crate::panels::commands::Id;
+use crate::panels::commands::{Id, tooltip};
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::menu::{item, submenu};
@@ -16,7 +16,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::{OutdatedEdits, OutdatedEditsChoice, SceneModel, SceneView};
 use dragonfly_picture::ThroughCamera;
 use egui::accesskit::Role;
-use egui::{Rect, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
+use egui::{Rect, Response, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
 /// Width of the button that finds a missing model, points.
 const FIND: f32 = 44.0;
@@ -46,8 +46,12 @@ pub(super) fn show(
         () => theme.text,
     };
     icon(kind).paint(ui.painter(), mark, if is_selected { theme.accent } else { theme.weak });
-    let text =
-        Rect::from_min_max(pos2(rect.left() + 36.0, rect.top()), pos2(rect.right() - 54.0, rect.bottom()));
+    let has_model = matches!(kind, "role" | "prop");
+    let switches = if has_model { 74.0 } else { 54.0 };
+    let text = Rect::from_min_max(
+        pos2(rect.left() + 36.0, rect.top()),
+        pos2(rect.right() - switches, rect.bottom()),
+    );
     let shown = widgets::cut_in_middle(ui, id, text.width(), &TextStyle::Body);
     let end = widgets::text_in(ui, text, &shown, &TextStyle::Body, color);
     let model = thing.value("model").and_then(|model| scene.models.get(model));
@@ -101,12 +105,13 @@ pub(super) fn show(
         }
         button.on_hover_text(format!("{verb} {id}"));
     }
+    if has_model {
+        let place = Rect::from_center_size(pos2(rect.right() - 56.0, rect.center().y), vec2(20.0, ROW));
+        model_button(ui, (rect, place), (&response, id), requests);
+    }
     response.context_menu(|ui| menu(ui, context, scene, thing, requests));
     if response.double_clicked() {
-        requests.push(match kind {
-            "role" | "prop" => Request::Scene(SceneRequest::EditModel(id.into())),
-            _ => Request::Scene(SceneRequest::Rename(Some(id.into()))),
-        });
+        requests.push(Request::Scene(SceneRequest::Rename(Some(id.into()))));
     }
     let clicked = response.clicked();
     if response.secondary_clicked() && !is_selected {
@@ -117,6 +122,26 @@ pub(super) fn show(
         ui.label(hint(thing, model, file));
     });
     clicked
+}
+
+/// Draws the button that opens the model of a thing, while the pointer is over its row.
+fn model_button(
+    ui: &Ui,
+    (row, place): (Rect, Rect),
+    (response, id): (&Response, &str),
+    requests: &mut Vec<Request>,
+) {
+    let button = ui.interact(place, response.id.with("model"), Sense::click());
+    button.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Open the model of {id}")));
+    if ui.rect_contains_pointer(row) || button.has_focus() {
+        let theme = Theme::of(ui);
+        Icon::Bone.paint(ui.painter(), place, if button.hovered() { theme.text } else { theme.faint });
+        widgets::focus_ring(ui, &button, place);
+    }
+    if button.clicked() {
+        requests.push(Request::Scene(SceneRequest::EditModel(id.into())));
+    }
+    button.on_hover_text(tooltip(ui.ctx(), Id::EditSceneModel));
 }
 
 /// Returns the things that a switch in the row of `id` changes: all selected ones if it is one of them.
@@ -143,11 +168,7 @@ fn hint(thing: &ScriptElement, model: Option<&SceneModel>, file: Option<&str>) -
         Some(SceneModel::Missing(reason)) => format!("\n{}", widgets::shortened(reason)),
         Some(SceneModel::Loading | SceneModel::Loaded(_)) | None => String::new(),
     };
-    let action = if matches!(kind, "role" | "prop") {
-        "\nDouble-click: edit its takes and bones"
-    } else {
-        "\nDouble-click: rename"
-    };
+    let action = "\nDouble-click: rename";
     let file = file.map(|file| format!("\nIn {file}: open it to change it")).unwrap_or_default();
     format!("{kind} {id}{source}{file}{reason}{action}")
 }
@@ -207,9 +228,13 @@ pub(super) fn menu(
         }
         ui.separator();
     }
-    if matches!(kind, "role" | "prop") && entry(ui, "Edit takes and bones").clicked() {
-        requests.push(Request::Scene(SceneRequest::EditModel(id.into())));
-        ui.close();
+    if matches!(kind, "role" | "prop") {
+        let open = entry(ui, "Edit takes and bones");
+        if open.clicked() {
+            requests.push(Request::Scene(SceneRequest::EditModel(id.into())));
+            ui.close();
+        }
+        open.on_hover_text(tooltip(ui.ctx(), Id::EditSceneModel));
     }
     if kind == "camera" {
         if entry(ui, "Look through it").clicked() {

@@ -58,8 +58,8 @@ pub(super) fn show(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Reque
             }
             response.context_menu(|ui| thing_menu(ui, sheet.context, requests));
         }
-        if response.double_clicked() && matches!(lane.kind, "role" | "prop") {
-            requests.push(Request::Scene(SceneRequest::EditModel(lane.name.clone())));
+        if response.double_clicked() && is_thing {
+            requests.push(Request::Scene(SceneRequest::Rename(Some(lane.name.clone()))));
         }
     }
 }
