@@ -101,6 +101,18 @@ fn the_wheel_zooms_about_the_pointer_the_middle_button_pans_and_a_command_shows_
 }
 
 #[test]
+fn the_wheel_zooms_out_to_a_limit_and_not_into_the_time_before_the_scene() {
+    let mut window = window();
+    let lanes = Lanes::of(&window);
+    let at = pos2(lanes.canvas.right() - 20.0, lanes.canvas.center().y);
+    for _ in 0..12 {
+        turn_wheel(&mut window, at, Vec2::new(0.0, -400.0));
+    }
+    let shown = window.state().state.read().scene_editing.window();
+    assert!(shown.length <= 15.0 && shown.start >= -0.1 * shown.length, "{shown:?}");
+}
+
+#[test]
 fn an_error_has_a_mark_in_the_margin_at_its_line() {
     let mut window = window();
     let take = FOXES.find("take=\"Walk").expect("a take") + "take=\"Walk".len();

@@ -18,6 +18,9 @@ const LONGEST: f64 = 1e6;
 /// Duration that can be shown of any take, however short it is, seconds.
 const GROWS: f64 = 15.0;
 
+/// Part of a window in which the time before a scene is shown.
+const BEFORE: f64 = 0.1;
+
 impl TimeWindow {
     /// Returns the window of a whole take; one second for a single pose.
     pub fn whole(start: f32, length: f32) -> Self {
@@ -54,6 +57,15 @@ impl TimeWindow {
         }
         let margin = self.length * 0.1;
         Some(self.panned(if at > end { at - end + margin } else { at - self.start - margin }))
+    }
+
+    /// Returns the window limited to twice a scene from 0 to `end`, or to what a short one may grow to, and moved so that it does not begin far before 0,
+    /// and a part of the scene is in sight.
+    pub fn within(self, end: f64) -> Self {
+        let length = self.length.min((end * 2.0).max(GROWS)).max(SHORTEST);
+        let first = -length * BEFORE;
+        let start = between(self.start, first, (end - length * 0.1).max(first));
+        Self { start, length }.sanitized()
     }
 
     /// Returns the window moved so that at least a part of `first..=last` is in sight, and limited to three times that length, or
@@ -122,6 +134,17 @@ mod tests {
             let after = before.zoomed(f64::from(time), factor);
             assert!((scale(after).x_of(time) - 200.0).abs() < 0.01, "{factor}");
         }
+    }
+
+    #[test]
+    fn a_window_of_a_scene_is_limited_to_twice_its_length_and_begins_little_before_it() {
+        for (start, length) in [(-1e5, 1e6), (-3.0, 10.0), (0.0, 5.0), (90.0, 1.0), (1e5, 400.0)] {
+            let window = TimeWindow { start, length }.within(100.0);
+            assert!(window.length <= 200.0 && window.start >= -0.1 * window.length, "{window:?}");
+            assert!(window.start < 100.0 && window.start + window.length > 0.0, "{window:?}");
+        }
+        let inside = TimeWindow { start: 0.0, length: 5.0 };
+        assert_eq!(inside.within(100.0), inside);
     }
 
     #[test]

@@ -146,7 +146,7 @@ impl SceneEditing {
     pub fn window(&self) -> TimeWindow {
         let end = self.lanes.end.seconds().max(1.0);
         let whole = TimeWindow { start: 0.0, length: end * 1.04 }.sanitized();
-        self.window.map_or(whole, |window| window.near(0.0, end))
+        self.window.map_or(whole, |window| window.within(end))
     }
 
     pub(in crate::panels) fn set_window(&mut self, window: Option<TimeWindow>) {
