@@ -7,6 +7,7 @@ use dragonfly::panels::commands::{Id, shortcut_text};
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly_document::bones::Choice;
 use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
 
 fn press(window: &mut Window, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
@@ -74,4 +75,14 @@ fn menus_show_the_keys_of_commands_of_scenes() {
         assert!(!of.is_empty() && own == of, "{own:?} {of:?}");
     }
     assert_eq!(shortcut_text(&window.ctx, Id::AddLight), "");
+}
+
+#[test]
+fn the_sheet_of_shortcuts_shows_the_keys_of_commands_of_scenes() {
+    let mut window = scene(FOXES).window();
+    window.key_press(Key::F1);
+    window.run_steps(4);
+    for shown in ["Rename: F2", "Hide things: H", "Hide other things: Shift+H", "Drop to the ground: Alt+G"] {
+        assert!(window.query_all_by_label(shown).next().is_some(), "{shown}");
+    }
 }

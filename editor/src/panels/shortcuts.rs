@@ -205,7 +205,7 @@ impl ShortcutSheet {
                 let text = match shortcuts.get(place) {
                     _ if asked == Some(place) => "Press a key".to_owned(),
                     Some(shortcut) => commands::text(shortcut),
-                    None => "–".to_owned(),
+                    None => inherited(ui, scope, id).unwrap_or_else(|| "–".to_owned()),
                 };
                 let name = match scope {
                     KeyScope::Window => command.title.to_owned(),
@@ -245,7 +245,19 @@ impl ShortcutSheet {
                 .iter()
                 .flat_map(|scope| keymap.shortcuts(*scope, command.id))
                 .any(|shortcut| has(&commands::text(shortcut)))
+            || commands::counterparts_of(command.id)
+                .filter_map(|other| keymap.first_shortcut(other))
+                .any(|shortcut| has(&commands::text(shortcut)))
     }
+}
+
+/// Returns the key that a command without a key of its own has while a scene is open: that of its counterpart for models; `None` where there is none.
+fn inherited(ui: &Ui, scope: KeyScope, id: Id) -> Option<String> {
+    let text = match scope {
+        KeyScope::Window => commands::shortcut_of_counterpart(ui.ctx(), id),
+        KeyScope::Keys => String::new(),
+    };
+    Some(text).filter(|text| !text.is_empty())
 }
 
 /// Removes the first pressed key from the events. Returns it with its modifier keys.

@@ -144,10 +144,20 @@ fn next_hiding(panels: &PanelContext<'_>, done: usize, direction: WalkDirection)
 /// Returns the first shortcut as text, `Ctrl+O`, or the first one over the timeline and the curves, or that of the command for models
 /// whose keys a command of scenes has; empty when there is none.
 pub fn shortcut_text(context: &egui::Context, id: Id) -> String {
+    let own = Keymap::of(context).first_shortcut(id).map(text);
+    own.unwrap_or_else(|| shortcut_of_counterpart(context, id))
+}
+
+/// Returns the first shortcut of the command for models whose keys a command of scenes has; empty when there is none.
+pub(super) fn shortcut_of_counterpart(context: &egui::Context, id: Id) -> String {
     let keymap = Keymap::of(context);
-    let own = keymap.first_shortcut(id);
-    let found = own.or_else(|| counterpart::for_models(id).find_map(|other| keymap.first_shortcut(other)));
+    let found = counterpart::for_models(id).find_map(|other| keymap.first_shortcut(other));
     found.map(text).unwrap_or_default()
+}
+
+/// Returns the commands for models whose keys a command of scenes has.
+pub(super) fn counterparts_of(id: Id) -> impl Iterator<Item = Id> {
+    counterpart::for_models(id)
 }
 
 /// Returns the tooltip: title and shortcut, then the help.
