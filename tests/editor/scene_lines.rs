@@ -174,6 +174,22 @@ fn corners_end_with_enter_and_escape_gives_them_up() {
 }
 
 #[test]
+fn a_double_click_ends_a_line_of_corners_and_one_at_its_start_adds_none() {
+    let mut window = scene(FOXES).window();
+    run(&mut window, Id::ToolPath);
+    let corners = [DVec3::ZERO, DVec3::new(1.0, 0.0, 0.0), DVec3::new(1.0, 0.0, 1.0)];
+    for corner in [corners[0], corners[0], corners[1], corners[2], corners[2]] {
+        stroke(&mut window, &[corner]);
+    }
+    let new = new_lines(FOXES, &text(&window));
+    assert_eq!((new.len(), window.state().steps()), (1, (1, 1)), "{new:?}");
+    let found = points(&new[0]);
+    assert!(
+        found.len() == 3 && found.iter().zip(corners).all(|(found, corner)| found.distance(corner) < 0.01)
+    );
+}
+
+#[test]
 fn shift_draws_a_straight_line_and_tells_length_and_direction() {
     let mut window = scene(FOXES).window();
     run(&mut window, Id::ToolPath);

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! drag            freehand, with Shift straight
-//! click, click…   corners; Enter ends the line, Backspace takes a corner back
+//! click, click…   corners; Enter or a second click on the last one ends the line, Backspace takes a corner back
 //! Ctrl + drag     erases what is under the pointer
 //! Alt + drag      draws the path of a bone over time, where the pose of bones is drawn
 //! Esc, right      gives up the line that is drawn, or the tool
@@ -259,6 +259,13 @@ impl LineControl {
             }
             LinePhase::Freehand(points) => self.finish(points, false),
             LinePhase::Straight(ends) => self.finish(ends.to_vec(), true),
+            LinePhase::Corners { corners, .. } if self.is_on_last(&corners, at) => {
+                if corners.len() > 1 {
+                    self.finish(corners, true);
+                } else {
+                    self.phase = LinePhase::Corners { next: corners[0], corners, press: None };
+                }
+            }
             LinePhase::Corners { mut corners, next, press } => {
                 if press.is_some() {
                     corners.extend(place);
@@ -268,6 +275,12 @@ impl LineControl {
             LinePhase::Erase => self.answer = Some(LineAnswer::EraserUp),
         }
         InputFlow::Stop
+    }
+
+    /// Returns whether a click is on the last corner, as the second one of a double click is.
+    fn is_on_last(&self, corners: &[DVec3], at: Vec2) -> bool {
+        let last = self.view.zip(corners.last()).and_then(|(view, last)| view.to_screen(*last));
+        last.is_some_and(|last| last.as_vec2().distance(at) <= THRESHOLD)
     }
 
     /// Returns whether a press draws. With Alt the camera orbits, unless bones are posed.

@@ -103,7 +103,10 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Click after \"Pick the focus\"", "Focus on a bone; Shift: on its distance"),
     ("Drag while drawing lines", "Draw freehand; Shift: straight, Ctrl: erase"),
     ("Alt + drag while drawing a pose line", "Draw the motion path of the end of the bones"),
-    ("Click while drawing lines", "Add a corner; Enter ends the line, Backspace takes a corner back"),
+    (
+        "Click while drawing lines",
+        "Add a corner; Enter or a double click ends the line, Backspace takes a corner back",
+    ),
     ("Drag a number", "Change it; Shift for precision, Ctrl to snap"),
     ("Double-click a slider", "Reset its number"),
     ("Drag a pose of the library sideways", "Blend it in; double-click: apply it"),

@@ -34,7 +34,11 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
             job.append(&format!("{:.1}\u{b0}", zero(angle)), 10.0, digits(theme.text));
         }
         if context.tools.controls().is_modal() {
-            job.append("Enter ends it, Backspace takes a corner back, Esc gives up", 10.0, words(theme.weak));
+            job.append(
+                "Double-click or Enter ends it, Backspace takes a corner back, Esc gives up",
+                10.0,
+                words(theme.weak),
+            );
         }
     } else if context.tools.controls().line().is_erasing() {
         job.append("Erase lines", 0.0, words(theme.text));
