@@ -68,6 +68,7 @@ mod overlay_title;
 pub mod overlays;
 mod palette;
 pub mod panel;
+mod plain_words;
 mod player;
 pub mod pose_library;
 pub mod posed;

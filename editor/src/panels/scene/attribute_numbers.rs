@@ -6,6 +6,7 @@ use crate::control::expression::Quantity;
 use crate::panels::context::PanelContext;
 use crate::panels::number_field::{FieldEvent, NumberField};
 use crate::panels::number_text::{Digits, exact};
+use crate::panels::plain_words::plain_words;
 use crate::panels::request::Request;
 use crate::panels::style::GRID;
 use dragonfly_anim::stage::gesture::GestureRefusal;
@@ -85,6 +86,7 @@ impl NumberAttribute {
             1 => self.row.name.to_owned(),
             _ => format!("{} {}", self.row.name, ["x", "y", "z"].get(index).copied().unwrap_or_default()),
         };
+        let help = plain_words(self.row.help);
         let field = NumberField {
             id: Id::unique(("attribute", self.element, self.row.name, index)),
             name: &name,
@@ -97,7 +99,7 @@ impl NumberAttribute {
             digits: Digits::Fitting,
             range: self.kind.least..=self.kind.most,
             locked: None,
-            help: self.row.help,
+            help: &help,
             quiet: !self.is_written,
             relative: false,
         };

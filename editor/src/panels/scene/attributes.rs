@@ -13,6 +13,7 @@ use super::script::text_choice::ShownText;
 use super::thing_icon::icon;
 use super::{ChangedThings, LineRequest, SceneBase, SceneRequest, ScriptChange, line_named};
 use crate::panels::icons::Icon;
+use crate::panels::plain_words::plain_words;
 use crate::panels::submenu::entry;
 use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
@@ -163,7 +164,7 @@ fn heading(ui: &mut Ui, element: &ScriptElement, script: &StageScript) {
     });
     ui.horizontal(|ui| {
         ui.add_space(2.0 * GRID);
-        let help = RichText::new(element.row.help).small().color(theme.weak);
+        let help = RichText::new(plain_words(element.row.help)).small().color(theme.weak);
         ui.add(egui::Label::new(help).wrap());
     });
     ui.add_space(GRID);
@@ -208,7 +209,7 @@ impl SceneAttributes {
                         }
                     });
                 }
-                label.on_hover_text(format!("{}\n{}", row.help, row.value.expected));
+                label.on_hover_text(plain_words(&format!("{}\n{}", row.help, row.value.expected)));
                 let numbers = match field.owner {
                     FieldOwner::Element(element) => NumberAttribute::of(element, row, written),
                     FieldOwner::Line(_) => None,
@@ -321,7 +322,7 @@ fn line_heading(ui: &mut Ui, name: &str, line: &ScriptElement) {
     });
     ui.horizontal(|ui| {
         ui.add_space(2.0 * GRID);
-        ui.add(egui::Label::new(RichText::new(line.row.help).small().color(theme.weak)).wrap());
+        ui.add(egui::Label::new(RichText::new(plain_words(line.row.help)).small().color(theme.weak)).wrap());
     });
     ui.add_space(GRID);
 }
@@ -335,7 +336,8 @@ fn set_of_line(
 ) -> SceneRequest {
     let rate = context.scene_rate().unwrap_or_default();
     if !value.is_empty() && !row.value.accepts(value, rate) {
-        return SceneRequest::Refused(format!("{}=\"{value}\" is not {}", row.name, row.value.expected));
+        let expected = plain_words(row.value.expected);
+        return SceneRequest::Refused(format!("{}=\"{value}\" is not {expected}", row.name));
     }
     let value = (!value.is_empty()).then(|| value.to_owned());
     SceneRequest::Line(LineRequest::Set(line.into(), row.name, value))

@@ -1,5 +1,6 @@
 //! The list of suggestions under the cursor.
 
+use crate::panels::plain_words::plain_words;
 use crate::panels::style::{CARD_RADIUS, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -111,7 +112,8 @@ impl SuggestionList {
                         );
                         let color = if is_chosen { theme.accent } else { theme.text };
                         let end = widgets::text_in(ui, text, &item.label, &TextStyle::Monospace, color);
-                        let note = if item.help.is_empty() { word(item.kind) } else { &item.help };
+                        let note =
+                            if item.help.is_empty() { word(item.kind) } else { &plain_words(&item.help) };
                         let place = Rect::from_min_max(
                             pos2((end + 10.0).max(rect.left() + 110.0), rect.top()),
                             text.max,

@@ -5,9 +5,10 @@ use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
 use crate::panels::request::Request;
+use crate::panels::scene::gesture_request::gesture_request;
 use crate::panels::scene::{ChangedThings, SceneRequest};
 use crate::panels::submenu::entry;
-use dragonfly_anim::stage::gesture::{FadeEnd, set_fade, set_repeat, set_speed, wait_after};
+use dragonfly_anim::stage::gesture::{FadeEnd, GestureScene, set_fade, set_repeat, set_speed, wait_after};
 use dragonfly_anim::stage::script::StageRepeat;
 use dragonfly_anim::stage::table::element;
 use dragonfly_anim::stage::time::{Decimal, StageTime};
@@ -79,10 +80,11 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
             );
         });
     }
-    if sheet.scene.script.as_ref().is_some_and(|script| script.is_in_seq(action)) {
-        gesture(ui, "Wait after it", (ScriptLabel::AddAction, things), sheet, requests, |scene| {
-            wait_after(scene, action)
-        });
+    let is_in_seq = sheet.scene.script.as_ref().is_some_and(|script| script.is_in_seq(action));
+    if is_in_seq && entry(ui, "Wait after it").clicked() {
+        let wait = |scene: &GestureScene<'_>| wait_after(scene, action);
+        requests.push(gesture_request(sheet.context, sheet.scene, ScriptLabel::AddAction, things, wait));
+        ui.close();
     }
     ui.separator();
     for id in [Id::CutActions, Id::CopyActions, Id::PasteActions] {
