@@ -9,13 +9,14 @@ use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Change, DocumentMessage, LoadedModel, SceneModel, View};
+use dragonfly_document::{Change, DocumentMessage, FileView, LoadedModel, SceneModel, View};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::ThroughCamera;
 use dragonfly_picture::gizmo::GizmoView;
 use egui::{Event, Key, Modifiers, PointerButton, pos2};
 use egui_kittest::kittest::Queryable;
 use glam::{Vec2, Vec3};
+use std::path::Path;
 use std::sync::Arc;
 
 fn run(window: &mut Window, id: Id) -> Option<Effect> {
@@ -265,6 +266,21 @@ fn a_model_is_opened_at_the_time_and_the_place_that_it_has_in_the_scene_and_seen
     // Another model, opened for itself, has nothing around it.
     bench.state.show(View { generation: 9, ..fixture::full() });
     assert!(bench.state.read().around.is_none());
+}
+
+#[test]
+fn a_model_in_place_of_its_scene_differs_from_one_that_is_opened_itself() {
+    let mut bench = scene(FOXES);
+    let is_in_place = |bench: &Workbench, path: &str| bench.state.is_opened_in_place(Path::new(path));
+    assert!(!is_in_place(&bench, "/scenes/Fox.glb"));
+    bench.state.execute(Request::Scene(SceneRequest::EditModel("anna".into())));
+    assert!(is_in_place(&bench, "/scenes/Fox.glb") && !is_in_place(&bench, "/scenes/scene.xml"));
+    let file = FileView { path: Some("/scenes/Fox.glb".into()), ..FileView::default() };
+    let model = View { waiting_scene: Some("scene.xml".into()), file: Arc::new(file), ..fixture::full() };
+    bench.state.show(model);
+    assert!(is_in_place(&bench, "/scenes/Fox.glb") && !is_in_place(&bench, "/models/Fox.glb"));
+    bench.state.show(View { generation: 9, ..fixture::full() });
+    assert!(!is_in_place(&bench, "/scenes/Fox.glb"));
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn opened(interface: &mut Interface, loaded: &LoadedModel) {
     let state = &mut interface.state;
     let passed_over = state.take_passed_over();
     state.set_loading(None);
-    if let Some(path) = &loaded.path {
+    if let Some(path) = loaded.path.as_ref().filter(|path| !state.is_opened_in_place(path)) {
         state.settings_mut().remember(path);
     }
     for warning in &loaded.warnings {

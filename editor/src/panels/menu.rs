@@ -5,6 +5,7 @@ use super::context::PanelContext;
 use super::edit_scope_menu;
 use super::keys_menu;
 pub(super) use super::menu_entries::{entries, item};
+use super::recent_files::recent_names;
 use super::request::Request;
 use super::scene::SceneRequest;
 use super::scene_menu;
@@ -128,8 +129,8 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if context.settings.recent.is_empty() {
             ui.add_enabled(false, Button::new("No recent files").frame(false));
         }
-        for path in &context.settings.recent {
-            let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+        let recent = &context.settings.recent;
+        for (path, name) in recent.iter().zip(recent_names(recent)) {
             let button = Button::new(name).frame_when_inactive(false);
             if ui.add(button).on_hover_text(path.display().to_string()).clicked() {
                 requests.push(Request::Open(Source::File(path.clone())));

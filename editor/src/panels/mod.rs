@@ -75,6 +75,7 @@ pub mod posed;
 pub mod poses;
 pub mod prompts;
 pub mod properties;
+mod recent_files;
 pub mod reference;
 pub mod request;
 mod retarget;

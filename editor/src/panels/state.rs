@@ -27,7 +27,7 @@ use dragonfly_document::{
     SavedFile, View,
 };
 use egui::{Context, Pos2, RawInput};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -296,6 +296,14 @@ impl State {
     /// Returns the settings, to change them.
     pub fn settings_mut(&mut self) -> &mut Settings {
         &mut self.workspace.settings
+    }
+
+    /// Returns whether a file that was opened is the model of a thing, in place of its scene. Its view may come before or after this is asked.
+    pub fn is_opened_in_place(&self, path: &Path) -> bool {
+        let view = self.workspace.model.view();
+        let is_shown = |view: &View| view.waiting_scene.is_some() && view.file.path.as_deref() == Some(path);
+        let entered = self.workspace.entered.as_ref();
+        view.is_some_and(is_shown) || entered.is_some_and(|entered| entered.is_model(path))
     }
 
     /// Returns when the time display or the status line must be drawn again, if they must.

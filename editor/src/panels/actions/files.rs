@@ -90,7 +90,9 @@ fn save_as(workspace: &Workspace, order: SaveOrder) -> Effect {
 /// Reports a save that was completed. Poses that are still pending are named: they are not in the file.
 pub(in crate::panels) fn saved(workspace: &mut Workspace, saved: &SavedFile) {
     let name = saved.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    if !saved.copy {
+    // A model in place of a scene is opened with the scene.
+    let is_in_place = workspace.model.view().is_some_and(|view| view.waiting_scene.is_some());
+    if !saved.copy && !is_in_place {
         workspace.settings.remember(&saved.path);
     }
     for notice in &saved.notices {

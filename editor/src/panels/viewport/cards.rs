@@ -2,6 +2,7 @@
 
 use crate::panels::commands::{self, Id};
 use crate::panels::context::PanelContext;
+use crate::panels::recent_files::recent_names;
 use crate::panels::request::Request;
 use crate::panels::style::{CARD_RADIUS, GRID};
 use crate::panels::theme::Theme;
@@ -73,8 +74,8 @@ fn welcome(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests: &mut V
         if scene.on_hover_text(commands::tooltip(ui.ctx(), Id::DemoScene)).clicked() {
             requests.push(Request::Command(Id::DemoScene));
         }
-        for path in context.settings.recent.iter().take(4) {
-            let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+        let recent = &context.settings.recent;
+        for (path, name) in recent.iter().zip(recent_names(recent)).take(4) {
             if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
                 requests.push(Request::Open(Source::File(path.clone())));
             }
