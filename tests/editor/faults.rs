@@ -6,7 +6,7 @@ use crate::program::{dragonfly, outcome};
 use crate::screen::Screen;
 use crate::window::{Editor, SOON, alone, rest, same};
 use dragonfly_document::{Cancel, LoadedModel, Source, load_model};
-use dragonfly_kit::folder::{Folder, data};
+use dragonfly_kit::folder::{Folder, data, takes_long};
 use dragonfly_kit::picture::studio;
 use dragonfly_picture::{PictureSettings, Studio};
 use image::RgbaImage;
@@ -182,16 +182,21 @@ fn show_through(name: &str, cases: &[(&str, i32, usize, &str)]) {
     }
 }
 
+/// Number of devices that are lost one after the other, each one call later.
+fn losses() -> usize {
+    if takes_long() { 50 } else { 15 }
+}
+
 #[test]
 fn a_device_lost_while_acquiring_an_image_of_the_window_is_recreated() {
     let _one = alone();
-    show_through("acquire", &[("acquire", DEVICE_LOST, 50, "1")]);
+    show_through("acquire", &[("acquire", DEVICE_LOST, losses(), "1")]);
 }
 
 #[test]
 fn a_device_lost_while_presenting_an_image_is_recreated() {
     let _one = alone();
-    show_through("present", &[("present", DEVICE_LOST, 50, "1")]);
+    show_through("present", &[("present", DEVICE_LOST, losses(), "1")]);
 }
 
 #[test]

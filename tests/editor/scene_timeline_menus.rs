@@ -170,6 +170,10 @@ fn things_are_duplicated_and_hidden_by_the_keyboard_and_the_list() {
     let new = new_lines(FOXES, &text(&window));
     assert_eq!(new.len(), 1);
     assert!(new[0].contains("id=\"door-2\""), "{new:?}");
+    // The list scrolls to what is selected.
+    let ben = SceneRequest::SelectThings(vec!["ben".into()], Choice::Replace);
+    window.state_mut().state.execute(Request::Scene(ben));
+    window.run_steps(3);
     window.get_by_label("Hide ben").click();
     window.run_steps(3);
     assert!(window.state().state.read().scene_editing.is_hidden("ben"));

@@ -8,6 +8,7 @@ use dragonfly::panels::{Effect, Request};
 use dragonfly_document::edit::{Edit, RenameTake};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_document::{Change, Then};
+use dragonfly_kit::folder::takes_long;
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, pos2};
 
@@ -89,7 +90,7 @@ fn a_drag_without_a_release_leaves_nothing_held_and_no_partial_edit() {
     let seed = seed(0x756e_706c);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
-    let rounds = 1000;
+    let rounds = if takes_long() { 1000 } else { 200 };
     let mut animator = Animator::with_bone(3);
     let (mut taken_back, mut ended, mut deaf) = (0, 0, 0);
     for round in 0..rounds {
