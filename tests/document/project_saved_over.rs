@@ -66,14 +66,15 @@ fn the_history_of_a_project_goes_on_after_it_was_saved_in_another_folder_and_the
     document.open(&project(&folder));
     document.wait_for_view(is_read);
     document.edit(replaced_in("end.xml", END, "The End", "Fin"));
-    document.save(SaveTo::As(other.join("foxes.meproj")));
+    // Under another name, too.
+    document.save(SaveTo::As(other.join("wolves.meproj")));
     let end = END.replace("The End", "Fin");
     document.edit(replaced_in("end.xml", &end, "Fin", "Ende"));
     document.save(SaveTo::Own);
     document.end();
 
     let mut document = TestDocument::new(&autosave);
-    let view = document.open(&other.join("foxes.meproj"));
+    let view = document.open(&other.join("wolves.meproj"));
     assert_eq!((view.history.done, view.history.saved), (2, true));
     document.change(Change::GoTo(0));
     let view = document.view();

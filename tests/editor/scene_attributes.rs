@@ -52,6 +52,24 @@ fn a_drag_of_a_number_is_one_step_and_leaves_the_other_numbers_as_they_are_writt
 }
 
 #[test]
+fn a_right_click_on_a_number_or_on_its_name_restores_the_default() {
+    for label in ["facing", "scale"] {
+        let mut window = window_of("anna");
+        let at = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, label).rect().center();
+        window.event(egui::Event::PointerMoved(at));
+        for pressed in [true, false] {
+            let (button, modifiers) = (egui::PointerButton::Secondary, Modifiers::NONE);
+            window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+            window.run_steps(2);
+        }
+        window.get_by_label("Reset to the default").click();
+        window.run_steps(3);
+        let [line] = &new_lines(FOXES, &text(&window))[..] else { panic!("{}", text(&window)) };
+        assert!(line.contains("anna") && !line.contains(&format!("{label}=")), "{line}");
+    }
+}
+
+#[test]
 fn values_that_are_no_plain_numbers_and_paths_stay_texts() {
     let window = window_of("aisle");
     assert!(window.query_by_label("points").is_some() && window.query_by_label("points x").is_none());

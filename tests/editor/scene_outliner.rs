@@ -186,6 +186,24 @@ fn the_menu_of_a_row_hides_frames_and_looks_through_its_thing() {
 }
 
 #[test]
+fn a_drag_that_begins_elsewhere_ends_the_field_of_a_name_so_that_undo_is_not_that_of_its_text() {
+    let mut window = window();
+    window.get_by_label("wide, camera").click();
+    window.run_steps(2);
+    window.key_press(Key::F2);
+    window.run_steps(4);
+    assert!(window.state().state.read().scene_editing.renaming().is_some());
+    let lanes = window.query_by_label_contains("Lanes of the scene").expect("lanes").rect();
+    let at = lanes.center_bottom() - egui::vec2(0.0, 8.0);
+    window.event(egui::Event::PointerMoved(at));
+    let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
+    window.event(egui::Event::PointerButton { pos: at, button, pressed: true, modifiers });
+    window.run_steps(2);
+    assert_eq!(window.state().state.read().scene_editing.renaming(), None, "while the button is held");
+    assert_eq!(text(&window), FOXES);
+}
+
+#[test]
 fn a_sound_is_added_by_a_command_and_the_sound_track_of_a_model_is_not_offered() {
     let mut window = window();
     let effect = window.state_mut().state.execute(Request::Command(Id::AddSceneSound));

@@ -51,7 +51,8 @@ fn an_action_that_is_moved_to_the_playhead_begins_at_a_frame() {
 fn the_things_of_a_scene_are_computed_only_where_something_shows_them() {
     let mut bench = scene(FOXES);
     let now = bench.state.read().now;
-    let camera = |bench: &crate::workbench::Workbench| bench.state.read().stage.shown_camera();
+    let camera =
+        |bench: &crate::workbench::Workbench| bench.state.read().stage.shown_camera().map(str::to_owned);
     let first = camera(&bench);
     // Another shot, which nothing shows.
     bench.state.execute(Request::Seek(3.0));

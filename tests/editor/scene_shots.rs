@@ -8,6 +8,14 @@ use dragonfly::panels::scene::shots::{shot_at, shots_of};
 use dragonfly_anim::stage::time::StageTime;
 use egui_kittest::kittest::Queryable;
 
+/// A window with the list of shots in front.
+fn shown(script: &str) -> Window {
+    let mut window = scene(script).window();
+    window.state_mut().desk.show_panel("shots");
+    window.run_steps(2);
+    window
+}
+
 fn time(window: &Window) -> f32 {
     window.state().state.read().time()
 }
@@ -18,7 +26,7 @@ fn said(window: &Window) -> String {
 
 #[test]
 fn a_click_on_a_shot_goes_to_its_start_and_selects_it() {
-    let mut window = scene(FOXES).window();
+    let mut window = shown(FOXES);
     // The second camera is seen from the end of the first take on, which is cut at 2 s, to the end of the scene.
     let end = window.state().state.read().scene_bounds().expect("a scene").1;
     let last = format!("Shot 2, close, from 2.00 s, {:.2} s", end - 2.0);
@@ -33,7 +41,7 @@ fn a_click_on_a_shot_goes_to_its_start_and_selects_it() {
 
 #[test]
 fn commands_go_from_shot_to_shot() {
-    let mut window = scene(FOXES).window();
+    let mut window = shown(FOXES);
     for (id, expected) in
         [(Id::NextShot, 2.0), (Id::NextShot, 2.0), (Id::PreviousShot, 0.0), (Id::PreviousShot, 0.0)]
     {
@@ -47,7 +55,7 @@ fn a_shot_that_begins_between_frames_is_left_and_shown_like_others() {
     // As a number of single precision, the one is before its time and the other one after it.
     for begin in ["1.01", "1.1"] {
         let script = FOXES.replace("begin=\"looks.end\" blend", &format!("begin=\"{begin}\" blend"));
-        let mut window = scene(&script).window();
+        let mut window = shown(&script);
         let seen = |window: &Window| {
             let read = window.state().state.read();
             shot_at(shots_of(read.scene_editing.lanes()), read.scene_time())
@@ -67,7 +75,7 @@ fn a_shot_that_begins_between_frames_is_left_and_shown_like_others() {
 
 #[test]
 fn the_shot_at_a_time_is_the_last_one_that_has_begun() {
-    let window = scene(FOXES).window();
+    let window = shown(FOXES);
     let read = window.state().state.read();
     let shots = shots_of(read.scene_editing.lanes());
     let at = |seconds: f64| shot_at(shots, StageTime::from_seconds(seconds));
@@ -78,7 +86,7 @@ fn the_shot_at_a_time_is_the_last_one_that_has_begun() {
 fn of_many_shots_only_those_in_sight_are_drawn_and_all_can_be_scrolled_to() {
     let more: String =
         (0..500).map(|at| format!("    <shot who=\"wide\" begin=\"{}\"/>\n", 10 + at)).collect();
-    let mut window = scene(&FOXES.replace("    <seq>", &format!("{more}    <seq>"))).window();
+    let mut window = shown(&FOXES.replace("    <seq>", &format!("{more}    <seq>")));
     let drawn = |window: &Window| window.query_all_by_label_contains(", from ").count();
     assert!(drawn(&window) < 60, "{} rows", drawn(&window));
     let at = window.get_by_label_contains("Shot 1, ").rect().center();

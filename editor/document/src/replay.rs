@@ -39,7 +39,7 @@ impl Replayed {
         let takes = &model.animation.takes;
         match &self.at_save {
             Some(SavedContent { takes: saved, texts: saved_texts }) => {
-                saved_texts == texts
+                are_same(saved_texts, texts)
                     && saved.len() == takes.len()
                     && saved
                         .iter()
@@ -56,6 +56,14 @@ impl Replayed {
         let saved = saved.or(self.base.as_ref().map(|_| &[][..]))?;
         Some(saved.iter().enumerate().map(|(place, (id, _))| (*id, place)).collect())
     }
+}
+
+/// Returns whether texts have the same names and contents. The main text may have another name: that of a file as which the document was saved since.
+fn are_same(one: &TextFiles, other: &TextFiles) -> bool {
+    let (one, other) = (one.list(), other.list());
+    one.len() == other.len()
+        && one.first().map(|file| &file.text) == other.first().map(|file| &file.text)
+        && one.iter().skip(1).eq(other.iter().skip(1))
 }
 
 /// Applies all entries again, to the takes and texts in the journal or to those of the file, `model` and `texts`.

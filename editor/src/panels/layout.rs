@@ -142,13 +142,26 @@ impl Layout {
     /// Hides the panels that are for something else than what is open. Returns those that were visible before.
     fn hide_unfit(&mut self, panels: &[Box<dyn Panel>], is_scene: bool) -> Vec<TileId> {
         let unfit = panels.iter().filter(|panel| !panel.subject().fits(is_scene));
-        let tiles: Vec<TileId> = unfit
+        let mut tiles: Vec<TileId> = unfit
             .filter_map(|panel| self.find(panel.id()))
             .filter(|&tile| self.tree.is_visible(tile))
             .collect();
         for &tile in &tiles {
             self.tree.set_visible(tile, false);
         }
+        // A bar without tabs takes no room.
+        let empty = |tile: &Tile<Pane>| match tile {
+            Tile::Container(Container::Tabs(tabs)) => {
+                !tabs.children.is_empty() && tabs.children.iter().all(|&child| !self.tree.is_visible(child))
+            }
+            Tile::Container(_) | Tile::Pane(_) => false,
+        };
+        let bars = self.tree.tiles.iter().filter(|(_, tile)| empty(tile)).map(|(&id, _)| id);
+        let bars: Vec<TileId> = bars.filter(|&id| self.tree.is_visible(id)).collect();
+        for &tile in &bars {
+            self.tree.set_visible(tile, false);
+        }
+        tiles.extend(bars);
         tiles
     }
 }

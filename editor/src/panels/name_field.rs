@@ -95,6 +95,15 @@ impl NameField {
         if is_fresh {
             response.request_focus();
         }
+        // A drag that begins elsewhere ends the field as a click does.
+        let is_left = !is_fresh
+            && ui.input(|input| {
+                let at = input.pointer.interact_pos().filter(|_| input.pointer.any_pressed());
+                at.is_some_and(|at| !rect.contains(at))
+            });
+        if is_left {
+            response.surrender_focus();
+        }
         if response.changed() {
             self.refused = None;
         }
@@ -109,7 +118,7 @@ impl NameField {
         match () {
             () if escape => NameFieldEnd::GivenUp,
             () if enter => NameFieldEnd::Entered,
-            () if !is_fresh && !response.has_focus() => NameFieldEnd::Left,
+            () if is_left || !is_fresh && !response.has_focus() => NameFieldEnd::Left,
             () => NameFieldEnd::Open,
         }
     }

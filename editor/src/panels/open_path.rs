@@ -66,7 +66,13 @@ impl OpenPathDialog {
             PathUse::Choice(_) => "Path",
             PathUse::Open | PathUse::Again | PathUse::Compare => "Path of the model",
         };
-        let entered = self.field(ui, name, fresh);
+        let hint = match used {
+            PathUse::Choice(choice) if choice.filter().is_none() => "/home/me/scenes",
+            PathUse::Choice(_) | PathUse::Open | PathUse::Again | PathUse::Compare => {
+                "/home/me/models/fox.glb"
+            }
+        };
+        let entered = self.field(ui, [name, hint], fresh);
         if matches!(used, PathUse::Open | PathUse::Again) {
             ui.add_space(GRID);
             let view = context.view.filter(|_| used == PathUse::Again);
@@ -111,10 +117,8 @@ impl OpenPathDialog {
     }
 
     /// Draws the field. Returns whether the user pressed Enter in it.
-    fn field(&mut self, ui: &mut Ui, name: &str, fresh: bool) -> bool {
-        let field = TextEdit::singleline(&mut self.path)
-            .hint_text("/home/me/models/fox.glb")
-            .desired_width(f32::INFINITY);
+    fn field(&mut self, ui: &mut Ui, [name, hint]: [&str; 2], fresh: bool) -> bool {
+        let field = TextEdit::singleline(&mut self.path).hint_text(hint).desired_width(f32::INFINITY);
         let response = ui.add(field.font(TextStyle::Monospace).margin(Margin::symmetric(10, 7)));
         let response = response.accessible_name(name);
         if fresh {

@@ -66,9 +66,8 @@ impl<'a> PanelContext<'a> {
 
     /// Returns the id of the camera of the shot at the playhead; `None` where the cast has no camera.
     pub fn shot_camera(&self) -> Option<&'a str> {
-        let plan = self.scene()?.plan.as_ref()?;
-        let camera = self.stage.shown_camera()?;
-        plan.things().get(camera).map(|thing| &*thing.id)
+        self.scene()?.plan.as_ref()?;
+        self.stage.shown_camera()
     }
 
     /// Returns start and length of the scene, or of the part of it that its project shows, seconds; `None` while a model is open, and before a script works.

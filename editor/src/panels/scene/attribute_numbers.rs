@@ -9,12 +9,13 @@ use crate::panels::number_text::{Digits, exact};
 use crate::panels::plain_words::plain_words;
 use crate::panels::request::Request;
 use crate::panels::style::GRID;
+use crate::panels::submenu::entry;
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_anim::stage::table::{AttributeRow, PlainNumbers};
 use dragonfly_anim::stage::time::Decimal;
 use dragonfly_document::Change;
 use dragonfly_document::history::Gesture;
-use egui::{Id, Rect, Ui, pos2, vec2};
+use egui::{Id, Rect, Response, Ui, pos2, vec2};
 
 /// Height of a field, points.
 const HEIGHT: f32 = 24.0;
@@ -47,6 +48,18 @@ pub(super) struct DraggedAttribute {
     is_sent: bool,
 }
 
+/// Shows the menu of an attribute that is written, at a right click. Returns whether the default is to be restored.
+pub(super) fn reset_menu(response: &Response) -> bool {
+    let mut resets = false;
+    response.context_menu(|ui| {
+        if entry(ui, "Reset to the default").clicked() {
+            resets = true;
+            ui.close();
+        }
+    });
+    resets
+}
+
 impl NumberAttribute {
     /// Returns an attribute with fields for its numbers; `None` where its value is something else.
     pub(super) fn of(element: usize, row: &'static AttributeRow, written: Option<&str>) -> Option<Self> {
@@ -57,14 +70,15 @@ impl NumberAttribute {
         is_plain.then_some(Self { element, row, kind, texts, is_written: written.is_some() })
     }
 
-    /// Draws the fields. `dragged` is the number that is dragged, of any attribute.
+    /// Draws the fields. `dragged` is the number that is dragged, of any attribute. Returns whether the default is to be restored.
     pub(super) fn show(
         &self,
         ui: &mut Ui,
         context: &PanelContext<'_>,
         dragged: &mut Option<DraggedAttribute>,
         requests: &mut Vec<Request>,
-    ) {
+    ) -> bool {
+        let mut resets = false;
         let (count, gaps) = (self.texts.len() as f32, GRID * (self.texts.len() as f32 - 1.0));
         let width = (ui.available_width() - 2.0 * GRID).max(24.0);
         let (all, _) = ui.allocate_exact_size(vec2(width, HEIGHT), egui::Sense::hover());
@@ -72,12 +86,16 @@ impl NumberAttribute {
         for index in 0..self.texts.len() {
             let left = all.left() + index as f32 * (each + GRID);
             let rect = Rect::from_min_size(pos2(left, all.top()), vec2(each, HEIGHT));
-            let event = self.field(ui, rect, index);
+            let (event, response) = self.field(ui, rect, index);
             self.follow(event, index, context, dragged, requests);
+            if self.is_written && !self.row.required {
+                resets |= reset_menu(&response);
+            }
         }
+        resets
     }
 
-    fn field(&self, ui: &mut Ui, rect: Rect, index: usize) -> FieldEvent {
+    fn field(&self, ui: &mut Ui, rect: Rect, index: usize) -> (FieldEvent, Response) {
         let value = self.value(index);
         let is_angle = matches!(self.row.name, "facing" | "tilt");
         // A factor changes in proportion to its size.
@@ -103,7 +121,7 @@ impl NumberAttribute {
             quiet: !self.is_written,
             relative: false,
         };
-        field.show(ui, rect).0
+        field.show(ui, rect)
     }
 
     fn value(&self, index: usize) -> f64 {

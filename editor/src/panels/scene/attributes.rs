@@ -6,7 +6,7 @@ use super::super::request::Request;
 use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
-use super::attribute_numbers::{DraggedAttribute, NumberAttribute};
+use super::attribute_numbers::{DraggedAttribute, NumberAttribute, reset_menu};
 use super::renaming::renamed;
 use super::script::cursor::with_names;
 use super::script::text_choice::ShownText;
@@ -14,7 +14,6 @@ use super::thing_icon::icon;
 use super::{ChangedThings, LineRequest, SceneBase, SceneRequest, ScriptChange, line_named};
 use crate::panels::icons::Icon;
 use crate::panels::plain_words::plain_words;
-use crate::panels::submenu::entry;
 use dragonfly_anim::stage::gesture::{GestureRefusal, in_scene_texts, set_on_thing};
 use dragonfly_anim::stage::script::{ScriptElement, StageScript};
 use dragonfly_anim::stage::table::AttributeRow;
@@ -201,13 +200,8 @@ impl SceneAttributes {
                 let color = if written.is_some() { theme.text } else { theme.weak };
                 let (rect, label) = ui.allocate_exact_size(egui::vec2(82.0, 24.0), egui::Sense::CLICK);
                 widgets::text_in(ui, rect, row.name, &egui::TextStyle::Body, color);
-                if written.is_some() && !row.required {
-                    label.context_menu(|ui| {
-                        if entry(ui, "Reset to the default").clicked() {
-                            requests.push(Request::Scene(field.set(context, "")));
-                            ui.close();
-                        }
-                    });
+                if written.is_some() && !row.required && reset_menu(&label) {
+                    requests.push(Request::Scene(field.set(context, "")));
                 }
                 label.on_hover_text(plain_words(&format!("{}\n{}", row.help, row.value.expected)));
                 let numbers = match field.owner {
@@ -215,7 +209,10 @@ impl SceneAttributes {
                     FieldOwner::Line(_) => None,
                 };
                 if let Some(numbers) = numbers {
-                    return numbers.show(ui, context, &mut self.dragged, requests);
+                    if numbers.show(ui, context, &mut self.dragged, requests) {
+                        requests.push(Request::Scene(field.set(context, "")));
+                    }
+                    return;
                 }
                 let is_typed =
                     self.typed.as_ref().is_some_and(|(of, name, _)| (of, *name) == (&field.owner, row.name));

@@ -30,7 +30,7 @@ impl Panel for ShotsPanel {
     }
 
     fn place(&self) -> PanelPlace {
-        PanelPlace::LeftBelow
+        PanelPlace::BelowRight
     }
 
     fn subject(&self) -> PanelSubject {

@@ -163,9 +163,12 @@ impl SceneViewport {
         self.pressed_on = name;
     }
 
-    /// Returns the camera of the shot at the time computed last, as a position in the cast.
-    pub fn shown_camera(&self) -> Option<usize> {
-        self.shown.as_ref()?.scene.camera.map(|camera| camera.thing)
+    /// Returns the id of the camera of the shot at the time computed last.
+    pub fn shown_camera(&self) -> Option<&str> {
+        let shown = self.shown.as_ref()?;
+        // Positions are those in the cast of this plan, and a newer one may have another.
+        let camera = shown.plan.things().get(shown.scene.camera?.thing)?;
+        Some(&camera.id)
     }
 
     /// Returns the script at the start of the drag in progress.

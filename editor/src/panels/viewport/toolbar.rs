@@ -26,8 +26,9 @@ pub(super) fn toolbar(
     // One of two views needs room for the name of its camera.
     let wide = rect.width() > if context.second_view.is_some() { 640.0 } else { 430.0 };
     let is_scene = context.scene().is_some();
-    let groups = if wide { 12.0 } else { 6.0 } + if is_scene { 2.0 } else { 0.0 };
-    let width = groups * 26.0 + 3.0 * 9.0 + 2.0 * GRID + if wide { 26.0 } else { 0.0 };
+    let (buttons, dividers) = if wide { (13.0, 3.0) } else { (6.0, 1.0) };
+    let buttons = buttons + if is_scene { 2.0 } else { 0.0 };
+    let width = buttons * 26.0 + dividers * 9.0 + 2.0 * GRID;
     let at = Rect::from_min_size(pos2(rect.right() - width - 10.0, rect.top() + 10.0), vec2(width, 32.0));
     glass(ui, at);
     let mut ui = ui.new_child(
