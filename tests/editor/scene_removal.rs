@@ -45,7 +45,10 @@ fn a_clip_on_which_a_shot_depends_is_not_deleted_and_the_shot_is_named_and_selec
     run(&mut window, Id::SceneDelete);
     assert_eq!(text(&window), FOXES);
     let (message, is_warning) = said(&window);
-    assert!(is_warning && message.contains("the shot of close") && !message.contains('<'), "{message}");
+    assert!(
+        is_warning && message.contains("the shot of close depends on Survey") && !message.contains('<'),
+        "{message}"
+    );
     assert_eq!(window.state().state.read().scene_editing.actions(), [CLOSE]);
 }
 
@@ -57,7 +60,7 @@ fn a_role_at_which_a_camera_looks_is_not_deleted_and_the_camera_is_named_and_sel
     run(&mut window, Id::SceneDelete);
     assert_eq!(text(&window), FOXES);
     let (message, is_warning) = said(&window);
-    assert!(is_warning && message.contains("the camera close"), "{message}");
+    assert!(is_warning && message.contains("the camera close depends on ben"), "{message}");
     assert_eq!(window.state().state.read().scene_editing.things(), [Box::from("close")]);
 }
 

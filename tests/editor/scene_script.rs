@@ -129,6 +129,21 @@ fn while_the_text_is_broken_the_last_good_scene_stays_and_the_error_is_listed() 
 }
 
 #[test]
+fn a_comment_that_is_typed_after_a_thing_leaves_that_thing_selected() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "facing=\"-90\" scale=\"0.01\"/>") - 1);
+    let things = |window: &Window| window.state().state.read().scene_editing.things().to_vec();
+    assert_eq!(things(&window), [Box::from("ben")]);
+    window.key_press(Key::ArrowRight);
+    window.run_steps(2);
+    for part in [" <", "!-", "- a much longer comment than any ", "-", "-", ">"] {
+        type_text(&mut window, part);
+        assert!(!things(&window).contains(&"wide".into()), "after {part}: the next line is selected");
+    }
+    assert!(text(&window).contains("scale=\"0.01\"/> <!-- a much longer comment than any -->"));
+}
+
+#[test]
 fn a_suggestion_is_taken_with_tab() {
     let mut window = scene(FOXES).window();
     put_cursor(&mut window, place(FOXES, "<move who=\"ben\" path=\"aisle\" take=\"Wal"));

@@ -183,6 +183,7 @@ fn view(
     submenu(ui, "Camera", |ui| list(ui, context, &[Category::Camera], requests));
     if context.scene().is_some() {
         submenu(ui, "Look through", |ui| look_through(ui, context, requests));
+        item(ui, context, Id::ToggleSecondView, context.settings.look.second_view, requests);
     }
     ui.separator();
     let look = &context.settings.look;
@@ -270,7 +271,6 @@ pub(super) fn look_through(ui: &mut Ui, context: &PanelContext<'_>, requests: &m
     ui.separator();
     item(ui, context, Id::AttachCamera, context.is_camera_attached, requests);
     item(ui, context, Id::ToggleAround, context.settings.look.around, requests);
-    item(ui, context, Id::ToggleSecondView, context.settings.look.second_view, requests);
     item(ui, context, Id::ToggleImageGuides, context.settings.look.image_guides, requests);
 }
 

@@ -150,7 +150,11 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
         });
         let effect = effect.unwrap_or_else(|refusal| {
             let user = shown_script(workspace).and_then(|script| user_of_actions(&script, &actions));
-            refuse_deletion(workspace, &refusal, user)
+            let kept = match actions[..] {
+                [action] => workspace.scene.lanes().bar_of(action).map(|(_, bar)| bar.label.to_string()),
+                _ => None,
+            };
+            refuse_deletion(workspace, &refusal, &kept.unwrap_or_else(|| "one of them".to_owned()), user)
         });
         if effect.is_some() {
             // None of those that are left may be taken for one of them, and the same key must not delete the thing that did them.
@@ -186,7 +190,8 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace, lift: bool) -> Option
     });
     let effect = effect.unwrap_or_else(|refusal| {
         let user = shown_script(workspace).and_then(|script| user_of_things(&script, &things));
-        refuse_deletion(workspace, &refusal, user)
+        let kept = if let [thing] = &things[..] { &**thing } else { "one of them" };
+        refuse_deletion(workspace, &refusal, kept, user)
     });
     if effect.is_some() && actions > 0 {
         let what = if actions == 1 {
@@ -205,17 +210,18 @@ fn shown_script(workspace: &Workspace) -> Option<Arc<StageScript>> {
     workspace.model.view()?.scene.as_ref()?.script.clone()
 }
 
-/// Warns that something cannot be deleted, and selects what depends on it, so that it can be changed first.
+/// Warns that something called `kept` cannot be deleted, and selects what depends on it, so that it can be changed first.
 fn refuse_deletion(
     workspace: &mut Workspace,
     refusal: &GestureRefusal,
+    kept: &str,
     user: Option<RevealedUser>,
 ) -> Option<Effect> {
     let text = match &user {
         Some(user) => {
             let name = user.name(workspace.scene.lanes());
             format!(
-                "Nothing was deleted: {name} depends on it and is selected now. Change or delete that first"
+                "Nothing was deleted: {name} depends on {kept} and is selected now. Change or delete that first"
             )
         }
         None => format!("Nothing was deleted: {refusal}"),

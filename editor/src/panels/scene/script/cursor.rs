@@ -24,6 +24,15 @@ pub(super) fn cursor_request(scene: &SceneView, shown: ShownText, at: usize) -> 
     }
 }
 
+/// Returns whether the script, or the project, is that of a text: while a text has errors, and until the document has read it, they are those of an
+/// earlier one.
+pub(super) fn is_text_of(scene: &SceneView, shown: ShownText, text: &str) -> bool {
+    match shown {
+        ShownText::Script => scene.script.as_ref().is_some_and(|script| **script.tree().text() == *text),
+        ShownText::Project => scene.project.as_ref().is_some_and(|project| **project.tree().text() == *text),
+    }
+}
+
 /// Returns the bytes of what is selected elsewhere: the action, or the active thing; `None` while the text is another one than the scene has, and
 /// where it is in another text.
 pub(super) fn selected_range(

@@ -19,7 +19,7 @@ use super::super::{Panel, PanelPlace, widgets};
 use super::{SceneRequest, ScriptChange};
 use crate::panels::commands::Id as CommandId;
 use coloring::ScriptLayout;
-use cursor::{cursor_request, selected_range, with_names};
+use cursor::{cursor_request, is_text_of, selected_range, with_names};
 use dragonfly_anim::stage::script::ScriptError;
 use dragonfly_anim::stage::splice::TextSplice;
 use dragonfly_anim::stage::writing::completions;
@@ -53,6 +53,8 @@ pub struct ScriptPanel {
     suggestions: SuggestionList,
     /// Byte of the cursor in the last request about it.
     told: Option<usize>,
+    /// Whether what is at the cursor is to be selected once the script is that of the text: that of an earlier one has other things there.
+    asks: bool,
     /// The selected range to which the text was scrolled last.
     followed: Option<Range<usize>>,
     /// Byte to which the cursor moves in the next frame.
@@ -298,6 +300,14 @@ impl ScriptPanel {
             }
             self.told = Some(at);
             self.followed = None;
+            self.asks = true;
+        }
+        self.asks &= has_focus;
+        if self.asks
+            && let Some(at) = cursor
+            && is_text_of(scene, self.shown, self.buffer.as_str())
+        {
+            self.asks = false;
             requests.extend(cursor_request(scene, self.shown, at).map(Request::Scene));
         }
         self.finish_word(ui, has_focus, time, requests);
