@@ -89,7 +89,7 @@ pub struct Look {
     pub around: Option<Arc<SceneAround>>,
 }
 
-/// A second view of the scene of a script, without handles and helpers.
+/// A second view of the scene of a script, without handles, lines and helpers unless it is that of the free camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondView {
     /// Position and size, physical pixels of the window: x, y, width, height.

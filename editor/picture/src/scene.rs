@@ -54,8 +54,8 @@ pub struct Scene {
     /// Bones that are shown at rest.
     still: Vec<BoneIndex>,
     uniform: FrameUniform,
-    /// Whether the frame prepared last is the second view.
-    is_second: bool,
+    /// Whether handles, lines and helpers are left out of the frame that is prepared.
+    is_plain: bool,
 }
 
 impl Scene {
@@ -76,7 +76,7 @@ impl Scene {
             shown: None,
             still: Vec::new(),
             uniform: bytemuck::Zeroable::zeroed(),
-            is_second: false,
+            is_plain: false,
         }
     }
 
@@ -221,7 +221,7 @@ impl Scene {
             }
             let (camera, look, appearances) = (&self.seen, &self.look, &self.appearances);
             let cast = self.cast.as_ref();
-            if self.is_second {
+            if self.is_plain {
                 self.controls.clear();
             } else {
                 self.controls.present(&ControlFrame { model, cast, camera, look, appearances });
@@ -245,7 +245,9 @@ impl Scene {
     /// without a second view.
     pub(crate) fn prepare_second(&mut self, now: Instant) -> Option<Look> {
         let second = self.look.second.clone().filter(|_| self.cast.is_some())?;
-        Some(self.prepare_beside(second, now))
+        // Lines and helpers of the free camera stay while the pointer is in the other view.
+        let shows = second.through == ThroughCamera::Free;
+        Some(self.prepare_beside(second, shows, now))
     }
 
     /// Computes everything for a small picture. Returns the look and the playback of the viewport, to be set again after it was drawn.
@@ -259,24 +261,24 @@ impl Scene {
         let [width, height] = order.size;
         let through = ThroughCamera::Of(Arc::clone(&order.camera));
         let view = SecondView { viewport: [0, 0, width, height], through, camera: self.camera };
-        (self.prepare_beside(view, now), playback)
+        (self.prepare_beside(view, false, now), playback)
     }
 
-    /// Computes everything for a view apart from the viewport, without handles and helpers. Returns the look of the viewport.
-    fn prepare_beside(&mut self, view: SecondView, now: Instant) -> Look {
+    /// Computes everything for a view apart from the viewport; handles, lines and helpers where it `shows` them. Returns the look of the viewport.
+    fn prepare_beside(&mut self, view: SecondView, shows: bool, now: Instant) -> Look {
         let own = Look {
             viewport: view.viewport,
             through: view.through,
-            helpers: false,
-            skeleton: false,
+            helpers: self.look.helpers && shows,
+            skeleton: self.look.skeleton && shows,
             second: None,
             ..self.look.clone()
         };
         let look = std::mem::replace(&mut self.look, own);
         let camera = std::mem::replace(&mut self.camera, view.camera);
-        self.is_second = true;
+        self.is_plain = !shows;
         self.prepare(now);
-        self.is_second = false;
+        self.is_plain = false;
         self.camera = camera;
         look
     }

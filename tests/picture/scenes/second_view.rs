@@ -60,11 +60,11 @@ fn a_second_view_through_no_camera_of_the_scene_is_seen_with_a_free_camera_of_it
     assert_eq!(difference(&free, &beside), 0, "the viewport is as without a second view");
     assert!(difference(&nothing, &second) > 0, "something is drawn");
     let own = studio.stage().scene.camera;
-    // The same camera in the viewport, without helpers.
+    // The same camera in the viewport, with the helpers with which the user works in it.
     let now = Instant::now();
     let stage = studio.stage();
     stage.scene.camera = Camera { yaw: 1.0, distance: 5.0, ..Camera::default() };
-    stage.scene.look = Look { viewport: [0, 0, WIDTH, HEIGHT], ..Look::default() };
+    stage.scene.look = Look { viewport: [0, 0, WIDTH, HEIGHT], helpers: true, ..Look::default() };
     stage.touch_scene();
     let alone = stage.capture(now).unwrap();
     let alone = image::imageops::crop_imm(&alone, 0, 0, WIDTH, HEIGHT).to_image();
