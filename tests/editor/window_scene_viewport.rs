@@ -24,13 +24,21 @@ pub(crate) fn place(visit: &mut Visit, point: DVec3) -> Vec2 {
     view.to_screen(point).expect("in front of the camera").as_vec2() + Vec2::new(left, top)
 }
 
+/// Waits until all of the scene is framed, which is when its models were read.
+fn framed(visit: &mut Visit) {
+    let first = Camera::default().distance;
+    visit.until("a framed scene", |visit| {
+        let distance = camera(visit).distance;
+        (distance > 1.5 && distance != first).then_some(())
+    });
+}
+
 #[test]
 fn a_thing_is_clicked_dragged_and_seen_through_the_shot_and_undo_restores_the_text() {
     let _one = alone();
     let mut visit = Visit::of_scene("scene viewport", FOXES);
     visit.control("Lanes of the scene");
-    // All of the scene is framed when its model was read: it is more than two meters wide.
-    visit.until("a framed scene", |visit| (camera(visit).distance > 1.5).then_some(()));
+    framed(&mut visit);
     let flank = place(&mut visit, DVec3::new(1.0, 0.4, 0.0));
     visit.screen.click(flank.x as i16, flank.y as i16);
     // The attributes of a role.
@@ -60,7 +68,7 @@ fn a_model_that_is_dropped_from_another_program_stands_where_the_pointer_is() {
     let _one = alone();
     let mut visit = Visit::of_scene("scene drop", FOXES);
     visit.control("Lanes of the scene");
-    visit.until("a framed scene", |visit| (camera(visit).distance > 1.5).then_some(()));
+    framed(&mut visit);
     let wanted = DVec3::new(0.5, 0.0, 1.0);
     let at = place(&mut visit, wanted).round();
     let mut drag = Drag::new(&visit.screen);
