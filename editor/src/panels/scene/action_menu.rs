@@ -1,9 +1,9 @@
 //! The entries that add an action of the table, for a thing or for the scene.
 
-use super::gesture_request::add_request;
+use super::gesture_request::gesture_request;
 use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
-use crate::panels::scene::ChangedThings;
+use crate::panels::scene::{ChangedThings, SceneRequest};
 use crate::panels::submenu::submenu;
 use dragonfly_anim::stage::PlannedThing;
 use dragonfly_anim::stage::gesture::add_new_action;
@@ -94,9 +94,12 @@ impl ActionMenu<'_> {
         }
         let at = self.context.scene_time();
         let things = who.map_or(ChangedThings::None, ChangedThings::Thing);
-        self.requests.push(add_request(self.context, self.scene, ScriptLabel::AddAction, things, |scene| {
-            add_new_action(scene, row, who, target, at)
-        }));
+        self.requests.push(gesture_request(
+            self.context,
+            self.scene,
+            (SceneRequest::AddActions, ScriptLabel::AddAction, things),
+            |scene| add_new_action(scene, row, who, target, at),
+        ));
         ui.close();
     }
 }

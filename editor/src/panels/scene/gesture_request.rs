@@ -8,42 +8,24 @@ use dragonfly_anim::stage::script::StageScript;
 use dragonfly_document::SceneView;
 use dragonfly_document::edit::ScriptLabel;
 
+/// A step that a gesture makes: the request that carries it out, its label, and the things that it changes.
+pub(in crate::panels) type GestureStep<'a> =
+    (fn(ScriptChange) -> SceneRequest, ScriptLabel, ChangedThings<'a>);
+
 /// Returns the request that makes a gesture on the newest script a step of the history.
 pub(in crate::panels) fn gesture_request(
     context: &PanelContext<'_>,
     scene: &SceneView,
-    label: ScriptLabel,
-    things: ChangedThings<'_>,
+    (request, label, things): GestureStep<'_>,
     act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
 ) -> Request {
-    request_of(gesture_step(context, scene, label, things, act).map(SceneRequest::Text))
-}
-
-/// Returns the request that adds actions to the newest script in a step of the history, and selects them.
-pub(in crate::panels) fn add_request(
-    context: &PanelContext<'_>,
-    scene: &SceneView,
-    label: ScriptLabel,
-    things: ChangedThings<'_>,
-    act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
-) -> Request {
-    request_of(gesture_step(context, scene, label, things, act).map(SceneRequest::AddActions))
-}
-
-fn request_of(request: Result<SceneRequest, GestureRefusal>) -> Request {
-    Request::Scene(request.unwrap_or_else(|refusal| SceneRequest::Refused(refusal.to_string())))
-}
-
-fn gesture_step(
-    context: &PanelContext<'_>,
-    scene: &SceneView,
-    label: ScriptLabel,
-    things: ChangedThings<'_>,
-    act: impl FnOnce(&GestureScene<'_>) -> Result<String, GestureRefusal>,
-) -> Result<ScriptChange, GestureRefusal> {
-    let base = SceneBase::of(scene, context.scene_editing.text(scene))?;
-    let text = act(&base.scene())?;
-    Ok(base.step(text, label, things))
+    let step = || {
+        let base = SceneBase::of(scene, context.scene_editing.text(scene))?;
+        let text = act(&base.scene())?;
+        Ok(request(base.step(text, label, things)))
+    };
+    let made = step();
+    Request::Scene(made.unwrap_or_else(|refusal: GestureRefusal| SceneRequest::Refused(refusal.to_string())))
 }
 
 /// Returns the label of a step that moves actions; those that play takes are clips.

@@ -3,8 +3,8 @@
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::request::Request;
-use crate::panels::scene::gesture_request::add_request;
-use crate::panels::scene::{ChangedThings, DraggedTake};
+use crate::panels::scene::gesture_request::gesture_request;
+use crate::panels::scene::{ChangedThings, DraggedTake, SceneRequest};
 use crate::panels::style::GRID;
 use crate::panels::theme::Theme;
 use crate::panels::{search_field, widgets};
@@ -87,9 +87,12 @@ fn row(
     if response.double_clicked() {
         let at = context.scene_time();
         let things = ChangedThings::Thing(&thing.id);
-        requests.push(add_request(context, scene, ScriptLabel::AddClip, things, |base| {
-            add_clip(base, &thing.id, take, at)
-        }));
+        requests.push(gesture_request(
+            context,
+            scene,
+            (SceneRequest::AddActions, ScriptLabel::AddClip, things),
+            |base| add_clip(base, &thing.id, take, at),
+        ));
     }
     response.on_hover_text("Drag it onto a lane of the timeline, or double-click to add it at the playhead");
 }

@@ -55,9 +55,14 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
         submenu(ui, "Speed", |ui| {
             for speed in SPEEDS {
                 let title = format!("{speed}×");
-                gesture(ui, &title, (ScriptLabel::ChangeSpeed, things), sheet, requests, |scene| {
-                    set_speed(scene, action, speed)
-                });
+                gesture(
+                    ui,
+                    &title,
+                    (SceneRequest::Text, ScriptLabel::ChangeSpeed, things),
+                    sheet,
+                    requests,
+                    |scene| set_speed(scene, action, speed),
+                );
             }
         });
     }
@@ -66,14 +71,19 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
             for times in REPEATS {
                 let Some(number) = Decimal::parse(times) else { continue };
                 let title = format!("{times}×");
-                gesture(ui, &title, (ScriptLabel::ChangeRepeat, things), sheet, requests, |scene| {
-                    set_repeat(scene, action, StageRepeat::Times(number))
-                });
+                gesture(
+                    ui,
+                    &title,
+                    (SceneRequest::Text, ScriptLabel::ChangeRepeat, things),
+                    sheet,
+                    requests,
+                    |scene| set_repeat(scene, action, StageRepeat::Times(number)),
+                );
             }
             gesture(
                 ui,
                 "For as long as there is time",
-                (ScriptLabel::ChangeRepeat, things),
+                (SceneRequest::Text, ScriptLabel::ChangeRepeat, things),
                 sheet,
                 requests,
                 |scene| set_repeat(scene, action, StageRepeat::Fill),
@@ -83,7 +93,12 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
     let is_in_seq = sheet.scene.script.as_ref().is_some_and(|script| script.is_in_seq(action));
     if is_in_seq && entry(ui, "Wait after it").clicked() {
         let wait = |scene: &GestureScene<'_>| wait_after(scene, action);
-        requests.push(gesture_request(sheet.context, sheet.scene, ScriptLabel::AddAction, things, wait));
+        requests.push(gesture_request(
+            sheet.context,
+            sheet.scene,
+            (SceneRequest::Text, ScriptLabel::AddAction, things),
+            wait,
+        ));
         ui.close();
     }
     ui.separator();
@@ -116,9 +131,14 @@ fn fade_entries(
     submenu(ui, title, |ui| {
         for seconds in FADES {
             let title = if seconds == 0.0 { "None".to_owned() } else { format!("{seconds} s") };
-            gesture(ui, &title, (ScriptLabel::ChangeFade, things), sheet, requests, |scene| {
-                set_fade(scene, action, end, StageTime::from_seconds(seconds))
-            });
+            gesture(
+                ui,
+                &title,
+                (SceneRequest::Text, ScriptLabel::ChangeFade, things),
+                sheet,
+                requests,
+                |scene| set_fade(scene, action, end, StageTime::from_seconds(seconds)),
+            );
         }
     });
 }

@@ -3,7 +3,7 @@
 use super::bar_menu;
 use super::drag::BarDragging;
 use super::lane_layout::SceneHit;
-use super::menu_entry::addition;
+use super::menu_entry::gesture;
 use super::sheet::SceneSheet;
 use crate::panels::commands::Id;
 use crate::panels::menu::{item, submenu};
@@ -64,10 +64,10 @@ fn lane_entries(ui: &mut Ui, lane: &SceneLane, sheet: &SceneSheet<'_>, requests:
             }
             egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
                 for take in model.takes() {
-                    addition(
+                    gesture(
                         ui,
                         take.name(),
-                        (ScriptLabel::AddClip, ChangedThings::Thing(&lane.name)),
+                        (SceneRequest::AddActions, ScriptLabel::AddClip, ChangedThings::Thing(&lane.name)),
                         sheet,
                         requests,
                         |scene| add_clip(scene, &lane.name, take.name(), at),
@@ -100,10 +100,10 @@ fn attach_entries(
 ) {
     let at = sheet.context.scene_time();
     submenu(ui, &*holder.id, |ui| {
-        addition(
+        gesture(
             ui,
             "The whole",
-            (ScriptLabel::Attach, ChangedThings::Thing(who)),
+            (SceneRequest::AddActions, ScriptLabel::Attach, ChangedThings::Thing(who)),
             sheet,
             requests,
             |scene| attach_thing(scene, who, &holder.id, at),
@@ -112,10 +112,10 @@ fn attach_entries(
         egui::ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
             for bone in bones.iter().filter(|bone| !bone.name.is_empty()) {
                 let to = format!("{}.{}", holder.id, bone.name);
-                addition(
+                gesture(
                     ui,
                     &bone.name,
-                    (ScriptLabel::Attach, ChangedThings::Thing(who)),
+                    (SceneRequest::AddActions, ScriptLabel::Attach, ChangedThings::Thing(who)),
                     sheet,
                     requests,
                     |scene| attach_thing(scene, who, &to, at),
@@ -131,9 +131,14 @@ fn general(ui: &mut Ui, sheet: &SceneSheet<'_>, requests: &mut Vec<Request>) {
     let things = sheet.scene.plan.as_ref().map_or(&[][..], |plan| plan.things());
     submenu(ui, "Cut at the playhead to", |ui| {
         for camera in things.iter().filter(|thing| thing.kind == "camera") {
-            addition(ui, &camera.id, (ScriptLabel::AddShot, ChangedThings::None), sheet, requests, |scene| {
-                cut_to(scene, &camera.id, at)
-            });
+            gesture(
+                ui,
+                &camera.id,
+                (SceneRequest::AddActions, ScriptLabel::AddShot, ChangedThings::None),
+                sheet,
+                requests,
+                |scene| cut_to(scene, &camera.id, at),
+            );
         }
     });
     ui.separator();

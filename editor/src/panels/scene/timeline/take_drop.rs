@@ -4,7 +4,7 @@ use super::sheet::SceneSheet;
 use super::snap::snapped_time;
 use crate::panels::drag::readout;
 use crate::panels::request::Request;
-use crate::panels::scene::gesture_request::add_request;
+use crate::panels::scene::gesture_request::gesture_request;
 use crate::panels::scene::{ChangedThings, DraggedTake, SceneRequest};
 use dragonfly_anim::stage::gesture::add_clip;
 use dragonfly_anim::stage::lanes::SceneLane;
@@ -37,11 +37,10 @@ pub(super) fn update(ui: &Ui, painter: &Painter, sheet: &SceneSheet<'_>, request
     painter.rect_stroke(bar, CornerRadius::same(4), edge, StrokeKind::Inside);
     readout(ui, at, &format!("{name} · {}: begins at {:.3} s", take.take, begin.seconds()));
     if is_released {
-        requests.push(add_request(
+        requests.push(gesture_request(
             sheet.context,
             sheet.scene,
-            ScriptLabel::AddClip,
-            ChangedThings::Thing(name),
+            (SceneRequest::AddActions, ScriptLabel::AddClip, ChangedThings::Thing(name)),
             |scene| add_clip(scene, name, &take.take, begin),
         ));
     }
