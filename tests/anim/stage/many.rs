@@ -3,7 +3,7 @@
 use super::actors::{assets, fox, fox_script, planned};
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureScene, SequenceOrder, move_clip, move_clips, trim_start,
+    Followers, GestureScene, SequenceOrder, move_clip, move_clips, move_clips_to_lane, trim_start,
 };
 use dragonfly_anim::stage::line::{DrawnLines, LineSamples};
 use dragonfly_anim::stage::project::StageProject;
@@ -127,6 +127,47 @@ fn many_clips_are_moved_with_as_few_readings_as_their_references_need() {
             assert_eq!(now - was, wanted, "{action}");
         }
     }
+}
+
+#[test]
+fn clips_go_to_the_lane_of_another_role_with_as_many_readings_as_one_needs_however_many_they_are() {
+    let mut actions = String::new();
+    for at in 0..2_000 {
+        let _ =
+            writeln!(actions, "<play id=\"p{at}\" who=\"anna\" take=\"Survey\" begin=\"{at}\" dur=\"0.5\"/>");
+    }
+    let _ = writeln!(actions, "<play id=\"last\" who=\"ben\" take=\"Survey\" begin=\"9000\"/>");
+    let text = fox_script(&actions);
+    let (once, script) = count(|| read(&text));
+    let plan = planned(&text, &assets(&fox()));
+    let scene = GestureScene { script: &script, plan: &plan };
+    let first = script.action_called("p1000").expect("an action");
+    let by = dragonfly_anim::stage::time::StageTime::from_seconds(0.125);
+    let moved = |count_of: usize| {
+        let all: Vec<usize> = (first..first + count_of).collect();
+        count(|| move_clips_to_lane(&scene, &all, by, "ben", Followers::Follow).expect("a text"))
+    };
+    let share = |bytes: u64| bytes as f64 / once.bytes as f64;
+    let [one, few] = [1, 20].map(|count_of| share(moved(count_of).0.bytes));
+    assert!(few < 1.5 * one, "{one} readings for one clip, {few} for 20");
+    let (allocated, many) = moved(600);
+    assert!(
+        share(allocated.bytes) < 2.0 * one,
+        "{one} readings for one clip, {} for 600",
+        share(allocated.bytes)
+    );
+    // They are after what the other role does, in their order, as long apart as before.
+    let lines: Vec<&str> = many.text.lines().filter(|line| line.contains("who=\"ben\" take")).collect();
+    assert_eq!(lines.len(), 601);
+    for (at, line) in lines[1..].iter().enumerate() {
+        let wanted = format!(
+            "<play id=\"p{}\" who=\"ben\" take=\"Survey\" begin=\"{}.125\" dur=\"0.5\"/>",
+            1000 + at,
+            1000 + at
+        );
+        assert_eq!(*line, wanted);
+    }
+    assert!(many.text.ends_with(&format!("{}\n\n</script>", lines[600])));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::{DUEL, listed, read};
 use dragonfly_anim::stage::script::StageScript;
 use dragonfly_anim::stage::splice::{
     AttachedComments, ElementPlace, NewElement, RenameRefusal, TextSplices, delete, duplicate,
-    elements_that_name, insert, move_to, remove_attribute, rename, set_attribute, unique_id,
+    elements_that_name, insert, move_all_after, move_to, remove_attribute, rename, set_attribute, unique_id,
 };
 use dragonfly_kit::random::{Random, seed};
 
@@ -158,6 +158,37 @@ fn a_moved_element_keeps_its_spelling_and_is_indented_as_its_new_siblings() {
     let (scene, grab) = (with_id(&inside, "scene-1"), with_id(&inside, "grab"));
     assert_eq!(move_to(inside.tree(), scene, ElementPlace::After(grab), AttachedComments::Stay), None);
     assert_eq!(move_to(inside.tree(), 0, ElementPlace::After(grab), AttachedComments::Stay), None);
+}
+
+#[test]
+fn elements_that_are_moved_together_keep_their_order_and_comments_also_after_one_of_themselves() {
+    let text = "<script version=\"1\">\n  <seq>\n    <!-- first -->\n    <wait id=\"a\" dur=\"1\"/>\n    <wait id=\"b\" dur=\"2\"/> <!-- second -->\n  \
+                </seq>\n  <wait id=\"c\" dur=\"3\"/>\n  <par><wait id=\"d\" dur=\"4\"/><wait id=\"e\" dur=\"5\"/></par>\n</script>\n";
+    let all = |ids: &[&str], after: &str| {
+        changed(text, |script| {
+            let elements: Vec<usize> = ids.iter().map(|id| with_id(script, id)).collect();
+            move_all_after(script.tree(), &elements, with_id(script, after), AttachedComments::Follow)
+        })
+    };
+    let [first, second] =
+        ["<!-- first -->\n  <wait id=\"a\" dur=\"1\"/>\n  ", "<wait id=\"b\" dur=\"2\"/> <!-- second -->\n"];
+    let gone = text
+        .replace("    <!-- first -->\n    <wait id=\"a\" dur=\"1\"/>\n", "")
+        .replace("    <wait id=\"b\" dur=\"2\"/> <!-- second -->\n", "");
+    let c = "  <wait id=\"c\" dur=\"3\"/>\n";
+    assert_eq!(all(&["a", "b"], "c"), gone.replace(c, &format!("{c}  {first}{second}")));
+    // In place of the lines of the last of them.
+    assert_eq!(all(&["a", "b", "c"], "c"), gone.replace(c, &format!("  {first}{second}{c}")));
+    // In one line.
+    let [d, e] = ["<wait id=\"d\" dur=\"4\"/>", "<wait id=\"e\" dur=\"5\"/>"];
+    assert_eq!(all(&["d", "e"], "e"), text);
+    assert_eq!(all(&["d"], "e"), text.replace(&format!("{d}{e}"), &format!("{e}{d}")));
+    let script = read(text);
+    let inside = |elements: &[usize]| {
+        move_all_after(script.tree(), elements, with_id(&script, "a"), AttachedComments::Follow)
+    };
+    assert_eq!(inside(&[1]), None, "a sequence does not go into itself");
+    assert_eq!(inside(&[]), Some(TextSplices::default()));
 }
 
 #[test]

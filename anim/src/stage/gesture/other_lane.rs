@@ -7,8 +7,8 @@ use super::mixes::{ActionOrigins, mixed};
 use super::moving::new_index;
 use super::scene::{Followers, GestureRefusal, GestureScene, refused};
 use super::several::outermost;
-use crate::stage::script::{ActionMoment, ScriptElement, ScriptTree};
-use crate::stage::splice::{AttachedComments, ElementPlace, move_to};
+use crate::stage::script::{ActionMoment, ScriptElement};
+use crate::stage::splice::{AttachedComments, ElementPlace, move_all_after, move_to};
 use crate::stage::table::ElementGroup;
 use crate::stage::time::StageTime;
 use crate::stage::time_text::{readable, time_text};
@@ -126,17 +126,12 @@ pub fn move_clips_to_lane(
         }
     }
     let origins = ActionOrigins::gathered(scene, &moved, place_index(scene, place));
-    let mut draft = ScriptDraft::of(scene.script).with(&changes)?;
-    let mut elements: Vec<usize> =
-        moved.iter().map(|&action| scene.script.actions()[action].element).collect();
-    let mut place = place;
-    for at in 0..elements.len() {
-        let element = elements[at];
-        let numbers = MovedElement::new(draft.tree(), element, place);
-        draft = draft.then(|tree| move_to(tree, element, place, AttachedComments::Follow))?;
-        elements.iter_mut().for_each(|other| *other = numbers.after(*other));
-        place = ElementPlace::After(elements[at]);
-    }
+    let elements: Vec<usize> = moved.iter().map(|&action| scene.script.actions()[action].element).collect();
+    let draft = ScriptDraft::of(scene.script).with(&changes)?.then(|tree| match place {
+        ElementPlace::After(after) => move_all_after(tree, &elements, after, AttachedComments::Follow),
+        // Only a script without actions has such a place.
+        ElementPlace::First(_) => None,
+    })?;
     let text = mixed(scene, draft, &origins)?.finish()?;
     Ok(MovedToLane { text, left })
 }
@@ -149,41 +144,6 @@ fn may_go_onto(scene: &GestureScene<'_>, action: usize, onto: &str) -> Result<()
     }
     fits_onto(scene, element, onto)?;
     keeps_prev(scene.script, [action])
-}
-
-/// The numbers of elements after one of them went to another place of the text.
-struct MovedElement {
-    /// Its number and those of the elements in it, before.
-    own: std::ops::Range<usize>,
-    /// The number that it has there.
-    to: usize,
-}
-
-impl MovedElement {
-    fn new(tree: &ScriptTree, element: usize, place: ElementPlace) -> Self {
-        let elements = tree.elements();
-        let end_of = |element: usize| {
-            let range = &elements[element].range;
-            let inside = elements.iter().skip(element).take_while(|other| other.range.start < range.end);
-            element + inside.count()
-        };
-        let before = match place {
-            ElementPlace::First(near) => near + 1,
-            ElementPlace::After(near) => end_of(near),
-        };
-        let count = end_of(element) - element;
-        let to = if before > element { before.saturating_sub(count) } else { before };
-        Self { own: element..element + count, to }
-    }
-
-    /// Returns the new number of an element.
-    fn after(&self, element: usize) -> usize {
-        if self.own.contains(&element) {
-            return self.to + element - self.own.start;
-        }
-        let without = if element > self.own.start { element - self.own.len() } else { element };
-        if without >= self.to { without + self.own.len() } else { without }
-    }
 }
 
 /// Returns the outermost `seq` around an action.

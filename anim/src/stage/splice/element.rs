@@ -54,6 +54,48 @@ pub fn move_to(
     Some(TextSplices::of(vec![TextSplice { range, text: String::new() }, put]))
 }
 
+/// Moves elements with everything in them after another one, in this order. None of them may be inside of another one of them; the other one may be
+/// one of them.
+///
+/// `None` where there is no such element, for the script itself, and for a place inside one of the elements.
+pub fn move_all_after(
+    tree: &ScriptTree,
+    elements: &[usize],
+    after: usize,
+    comments: AttachedComments,
+) -> Option<TextSplices> {
+    let text = tree.text();
+    let place = ElementPlace::After(after);
+    let around = |element: &usize| tree.elements().get(*element)?.parent;
+    let mut splices: Vec<TextSplice> = Vec::with_capacity(elements.len() + 1);
+    let mut put: Option<TextSplice> = None;
+    for &element in elements {
+        if std::iter::successors(Some(after), around).skip(1).any(|around| around == element) {
+            return None;
+        }
+        let range = taken(tree, element, comments)?;
+        let old = indentation(text, tree.own(element)?.range.start).unwrap_or_default();
+        let content = text.get(range.clone())?.trim_matches([' ', '\t', '\r', '\n']);
+        let block = block(tree, place, content, old)?;
+        match &mut put {
+            Some(put) => put.text += &block.text,
+            None => put = Some(block),
+        }
+        splices.push(TextSplice { range, text: String::new() });
+    }
+    let Some(put) = put else { return Some(TextSplices::default()) };
+    // The place is after one of them: all are written in place of that one.
+    match elements.iter().position(|&element| element == after).and_then(|own| splices.get_mut(own)) {
+        Some(own) if put.range.start < own.range.end => {
+            let end = text.get(put.range.start..own.range.end)?;
+            own.text = put.text.trim_start_matches(['\r', '\n']).to_owned() + end;
+        }
+        Some(own) if put.range.start == own.range.end => own.text = put.text.trim_start().to_owned(),
+        Some(_) | None => splices.push(put),
+    }
+    TextSplices::new(splices)
+}
+
 /// Inserts a copy of an element after it. The copy has new ids, and its references to the old ids inside of it follow.
 ///
 /// `None` where there is no such element, and for the script itself.

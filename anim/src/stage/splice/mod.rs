@@ -23,7 +23,7 @@ mod names;
 mod tag;
 
 pub use attribute::{remove_attribute, set_attribute};
-pub use element::{AttachedComments, delete, duplicate, move_to};
+pub use element::{AttachedComments, delete, duplicate, move_all_after, move_to};
 pub use insert::{ElementPlace, NewElement, insert, insert_text, written_element};
 pub(in crate::stage) use names::named;
 pub use names::{RenameRefusal, elements_that_name, rename, rename_references, unique_id};
