@@ -5,7 +5,7 @@ use crate::scene_timeline::{Lanes, drag};
 use crate::workbench::{Window, move_to, press, release};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
-use dragonfly::panels::scene::timeline::mixed_part;
+use dragonfly::panels::scene::timeline::{handed_back_part, mixed_part};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
@@ -228,6 +228,41 @@ fn a_bar_dragged_over_another_one_mixes_with_it_and_the_cross_is_where_the_mix_i
     let mut cut = scene(&FOXES.replace(" fade-in=\"0.5\" repeat", " repeat")).window();
     cut.run_steps(1);
     assert_eq!(part(&cut).map(|(_, seconds)| seconds), Some(0.0));
+}
+
+#[test]
+fn a_bar_dragged_inside_of_another_one_fades_at_both_ends_and_has_a_cross_at_each_of_them() {
+    let apart = FOXES
+        .replace("take=\"Survey\" to=\"2\"", "take=\"Survey\"")
+        .replace("begin=\"-0.5\" fade-in=\"0.5\" repeat=\"3\"", "begin=\"0.5\"");
+    let mut window = scene(&apart).window();
+    let parts = |window: &Window| {
+        let lanes = Lanes::of(window);
+        let all = window.state().state.read().scene_editing.lanes().clone();
+        let (_, bar) = all.bar_of(RUN).unwrap();
+        let rect = lanes.bar(window, RUN);
+        let [start, end] = [mixed_part, handed_back_part].map(|part| part(bar, rect, &lanes.scale));
+        let seconds = |width: f32| f64::from(width) / lanes.scale.per_second();
+        assert!(end.is_none_or(|end| (end.right() - rect.right()).abs() < 0.01), "{end:?} {rect}");
+        [start, end].map(|part| part.map(|part| seconds(part.width())))
+    };
+    assert_eq!(parts(&window), [None, None]);
+    let bar = Lanes::of(&window).bar(&window, RUN);
+    drag(&mut window, pos2(bar.center().x, bar.bottom() - 4.0), -2.5, Modifiers::ALT);
+    let new = new_lines(&apart, &text(&window));
+    assert!(new.len() == 1 && new[0].ends_with(r#" fade-in="0.25" fade-out="0.25"/>"#), "{new:?}");
+    assert_eq!(window.state().steps(), (1, 1), "move and fades are one step");
+    let [Some(start), Some(end)] = parts(&window) else { panic!("{:?}", parts(&window)) };
+    assert!((start - 0.25).abs() < 0.01 && (end - 0.25).abs() < 0.01, "{start} {end}");
+    // The handle at its end changes the fade there.
+    let lanes = Lanes::of(&window);
+    let bar = lanes.bar(&window, RUN);
+    let handle = bar.right() - (0.25 * lanes.scale.per_second()) as f32 - 12.0;
+    drag(&mut window, pos2(handle, bar.top() + 3.0), -0.25, Modifiers::NONE);
+    assert_eq!(window.state().steps(), (2, 2));
+    let [Some(start), Some(end)] = parts(&window) else { panic!("{:?}", parts(&window)) };
+    // It snaps to a frame, or to what is near.
+    assert!((start - 0.25).abs() < 0.01 && (end - 0.5).abs() < 0.1, "{start} {end}");
 }
 
 #[test]

@@ -76,7 +76,8 @@
 //!    references to the end of something inside still mean the end by these rules.
 //! 5. *Who decides.* Of actions on the same channel of a thing, the one that began last decides; of those that began together, the last in
 //!    the text. `fade-in` mixes with what was before and moves nothing in time. After its end an action holds its last state, unless it has
-//!    `fill="release"` or fades out; `look`, layers, titles and effects are released.
+//!    `fill="release"` or fades out; `look`, layers, titles and effects are released. So a clip inside of another one gives the pose back to it only
+//!    if it fades out or is released. The place is never given back: a thing stays where its last motion left it.
 //!
 //! Times are exact ([`time`]), and a time that depends on itself is an error that names every action in the loop.
 //!

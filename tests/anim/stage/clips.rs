@@ -4,9 +4,9 @@ use super::actors::{assets, at, bits, fox, fox_script, planned};
 use super::gestures::{called, changed, gesture, moved};
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureScene, SequenceOrder, copied_clips, delete_clip, delete_clips, duplicate_clip,
-    duplicate_clips, move_clips, move_to_lane, paste_clips, set_fade, set_repeat, set_speed, trim_end,
-    trim_start,
+    FadeEnd, Followers, GestureScene, SequenceOrder, add_clip, copied_clips, delete_clip, delete_clips,
+    duplicate_clip, duplicate_clips, move_clips, move_to_lane, paste_clips, set_fade, set_repeat, set_speed,
+    trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::{SceneLanes, Takeover};
 use dragonfly_anim::stage::script::StageRepeat;
@@ -95,10 +95,6 @@ fn trimmed_ends_and_starts_mix_too_and_other_lanes_and_layers_do_not() {
         let line = changed(&other, |scene| moved(scene, "b", 1.5)).concat();
         assert!(line.contains("begin=\"1.5\"") && !line.contains("fade-in"), "{line}");
     }
-    // A clip inside of another one has no end of a mix.
-    let short = TWO.replace("begin=\"3\"", "begin=\"3\" to=\"0.5\"");
-    let line = changed(&short, |scene| moved(scene, "b", 0.5)).concat();
-    assert!(!line.contains("fade-in"), "{line}");
 }
 
 #[test]
@@ -158,6 +154,83 @@ fn lanes_say_where_clips_mix_and_where_they_cut() {
     let pose = |text: &str, time: f64| bits(&at(&planned(text, &assets(&fox())), time));
     assert_ne!(pose(&alone, 1.7), pose(&with, 1.7));
     assert_eq!(pose(&alone, 1.75), pose(&with, 1.75));
+}
+
+/// The second clip begins after the first one, and is shorter.
+const SHORT: &str = "<par>\n  <play id=\"a\" who=\"anna\" take=\"Survey\"/>\n  <play id=\"b\" who=\"anna\" take=\"Run\" to=\"1\" begin=\"4\"/>\n  <play id=\"c\" who=\"anna\" take=\"Walk\" begin=\"6\"/>\n</par>";
+
+#[test]
+fn a_clip_that_is_moved_inside_of_another_one_fades_in_and_out_and_no_longer_once_it_is_outside() {
+    let line = |begin: &str, fades: &str| {
+        format!(r#"<play id="b" who="anna" take="Run" to="1" begin="{begin}"{fades}/>"#)
+    };
+    let inside = after(&fox_script(SHORT), |scene| moved(scene, "b", 1.0));
+    assert_eq!(line_of(&inside, "b"), line("1", r#" fade-in="0.25" fade-out="0.25""#));
+    let further = after(&inside, |scene| moved(scene, "b", 2.0));
+    assert_eq!(line_of(&further, "b"), line("2", r#" fade-in="0.25" fade-out="0.25""#));
+    // Survey ends at 3.417 s: beyond it, the fade is the overlap, and the pose is held.
+    let partly = after(&further, |scene| moved(scene, "b", 3.0));
+    assert_eq!(line_of(&partly, "b"), line("3", r#" fade-in="0.416""#));
+    let outside = after(&partly, |scene| moved(scene, "b", 4.0));
+    assert_eq!(outside, fox_script(SHORT));
+    // A short one fades for half of itself, and a fade that was given stays.
+    let shorter =
+        after(&inside, |scene| trim_end(scene, called(scene, "b"), seconds(1.2), Followers::Follow));
+    assert!(line_of(&shorter, "b").contains(r#"fade-in="0.1" fade-out="0.1""#), "{shorter}");
+    let own = after(&inside, |scene| set_fade(scene, called(scene, "b"), FadeEnd::Out, seconds(0.4)));
+    let moved_on = after(&own, |scene| moved(scene, "b", 1.5));
+    assert_eq!(line_of(&moved_on, "b"), line("1.5", r#" fade-in="0.25" fade-out="0.4""#));
+    // One that ends with the other one gives nothing back.
+    let last = SHORT.replace("to=\"1\" begin=\"4\"", "end=\"a.end\" begin=\"4\"");
+    let last = after(&fox_script(&last), |scene| moved(scene, "b", 2.0));
+    assert!(line_of(&last, "b").contains("fade-in=\"0.25\"") && !last.contains("fade-out"), "{last}");
+}
+
+#[test]
+fn a_clip_dropped_inside_of_another_one_leaves_the_mix_at_its_end_as_it_is() {
+    let text = after(&fox_script(SHORT), |scene| moved(scene, "c", 3.0));
+    assert_eq!(line_of(&text, "c"), r#"<play id="c" who="anna" take="Walk" begin="3" fade-in="0.416"/>"#);
+    let inside = after(&text, |scene| moved(scene, "b", 1.0));
+    assert_eq!(line_of(&inside, "c"), line_of(&text, "c"));
+    let added = after(&text, |scene| add_clip(scene, "anna", "Run", seconds(0.5)));
+    assert!(added.contains(r#"take="Run" begin="0.5" fade-in="0.25" fade-out="0.25"/>"#), "{added}");
+}
+
+#[test]
+fn after_a_clip_inside_of_another_one_the_pose_is_that_of_the_other_one_and_lanes_show_where_it_is_given_back()
+ {
+    let inside = after(&fox_script(SHORT), |scene| moved(scene, "b", 1.0));
+    let alone = fox_script(SHORT);
+    let pose = |text: &str, time: f64| bits(&at(&planned(text, &assets(&fox())), time));
+    for time in [0.5, 0.99, 2.0, 2.5, 3.3] {
+        assert_eq!(pose(&inside, time), pose(&alone, time), "{time}");
+    }
+    // In the middle it is that of the clip alone, as a cut shows it, and it is mixed in the fades.
+    let cut = inside.replace(" fade-in=\"0.25\" fade-out=\"0.25\"", "");
+    assert_eq!(pose(&inside, 1.5), pose(&cut, 1.5));
+    for time in [1.1, 1.9] {
+        assert!(
+            pose(&inside, time) != pose(&cut, time) && pose(&inside, time) != pose(&alone, time),
+            "{time}"
+        );
+    }
+    let bar = |text: &str| {
+        let (script, plan) = (read(text), planned(text, &assets(&fox())));
+        let lanes = SceneLanes::new(&script, &plan);
+        let (_, bar) = lanes.bar_of(script.action_called("b").unwrap()).unwrap();
+        (bar.takeover, bar.hand_back)
+    };
+    assert_eq!(bar(&inside), (Takeover::Mix(seconds(1.25)), Some(seconds(1.75))));
+    assert_eq!(bar(&cut), (Takeover::Cut, None), "it holds its last pose");
+    let released = cut.replace("to=\"1\" begin=\"1\"", "to=\"1\" begin=\"1\" fill=\"release\"");
+    assert_eq!(bar(&released), (Takeover::Cut, Some(seconds(2.0))));
+    assert_eq!(bar(&alone), (Takeover::After, None));
+    // The take of the other one is the one that plays again.
+    let plan = planned(&inside, &assets(&fox()));
+    let playing = |time: f64| plan.take_at(0, seconds(time)).map(|(action, _)| action);
+    let script = read(&inside);
+    let [a, b] = ["a", "b"].map(|id| script.action_called(id));
+    assert_eq!([playing(0.5), playing(1.5), playing(2.5)], [a, b, a]);
 }
 
 const SEVERAL: &str = "<seq>\n  <play id=\"a\" who=\"anna\" take=\"Survey\" to=\"1\"/>\n  <play id=\"b\" who=\"anna\" take=\"Survey\" to=\"1\"/>\n  <play id=\"c\" who=\"anna\" take=\"Survey\" to=\"1\"/>\n  <play id=\"d\" who=\"anna\" take=\"Survey\" to=\"1\"/>\n</seq>\n<play id=\"e\" who=\"ben\" take=\"Walk\" begin=\"b.begin+0.25\"/>\n<title id=\"f\" text=\"The\" begin=\"1\" dur=\"1\"/>";

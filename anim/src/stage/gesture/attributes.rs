@@ -41,7 +41,8 @@ pub fn set_fade(
     let most = if whole > StageTime::ZERO { whole } else { length };
     let length = length.max(StageTime::ZERO).min(most);
     let value = (length > StageTime::ZERO).then(|| text(scene, element, name, length));
-    change(scene, action, name, value)
+    // It moves nothing in time, so that no overlap changes.
+    ScriptDraft::of(scene.script).with(&[(scene.script.actions()[action].element, name, value)])?.finish()
 }
 
 /// Sets the speed: a factor for a take, below 0 backwards; meters per second for a move.

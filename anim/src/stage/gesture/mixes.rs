@@ -1,9 +1,9 @@
-//! Fades of clips that overlap the one before them: as long as the overlap.
+//! Fades of clips that overlap the one before them: as long as the overlap, and at both ends of a clip inside of another one.
 
 use super::draft::{AttributeChange, ScriptDraft};
 use super::scene::{GestureRefusal, GestureScene};
 use super::trim::text;
-use crate::stage::lanes::{is_same, overlaps};
+use crate::stage::lanes::{ClipMix, is_same, visit_clips};
 use crate::stage::schedule::{ActionTimes, resolve};
 use crate::stage::script::{ScriptElement, StageScript};
 use crate::stage::time::{Decimal, StageTime};
@@ -82,8 +82,8 @@ impl ActionOrigins {
     }
 }
 
-/// Gives clips fades as long as their overlaps with the clips before them, where a gesture changed these overlaps, in the lanes of all things.
-/// A fade that was not as long as the overlap before stays, and so does one of an included file.
+/// Gives clips the fades of their overlaps with the clips before them, where a gesture changed these overlaps, in the lanes of all things. A fade that was not
+/// that of the overlap before stays, and so does one of an included file.
 pub(super) fn mixed<'a>(
     scene: &GestureScene<'_>,
     draft: ScriptDraft<'a>,
@@ -93,29 +93,40 @@ pub(super) fn mixed<'a>(
     let origins = origins.in_script(scene, &script);
     let schedule = resolve(&script, &lengths_after(scene, &script, &origins))?;
     let old = mixes(scene.script, scene.schedule().times());
-    let new = mixes(&script, schedule.times());
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
-    for (action, origin) in origins.iter().enumerate().skip(1) {
+    visit_clips(&script, schedule.times(), |action, overlap| {
         let element = script.element(action);
-        if !element.is_own() || element.row.attribute("fade-in").is_none() {
-            continue;
+        let before = origins[action].and_then(|origin| old.get(&origin)).copied().unwrap_or_default();
+        let after = overlap.map(|overlap| overlap.mix).unwrap_or_default();
+        let fade = |name: &str| script.time(element, name).unwrap_or_default();
+        let mut fade_out = fade("fade-out");
+        for (name, before, after) in
+            [("fade-in", before.fade_in, after.fade_in), ("fade-out", before.fade_out, after.fade_out)]
+        {
+            if !element.is_own() || is_same(before, after) || !is_same(fade(name), before) {
+                continue;
+            }
+            let length = readable(after, script.rate());
+            let value = (length > StageTime::ZERO).then(|| text(scene, element, name, length));
+            changes.push((script.actions()[action].element, name, value));
+            if name == "fade-out" {
+                fade_out = length;
+            }
         }
-        let before = origin.and_then(|origin| old.get(&origin)).copied().unwrap_or_default();
-        let after = new.get(&action).copied().unwrap_or_default();
-        let fade = script.time(element, "fade-in").unwrap_or_default();
-        if is_same(before, after) || !is_same(fade, before) {
-            continue;
-        }
-        let length = readable(after, script.rate());
-        let value = (length > StageTime::ZERO).then(|| text(scene, element, "fade-in", length));
-        changes.push((script.actions()[action].element, "fade-in", value));
-    }
+        script.is_released(element, fade_out, false)
+    });
     draft.with(&changes)
 }
 
-/// Returns for each clip that overlaps the one before it the duration of their mix.
-fn mixes(script: &StageScript, times: &[ActionTimes]) -> HashMap<usize, StageTime> {
-    overlaps(script, times).into_iter().map(|clip| (clip.action, clip.mix(times))).collect()
+/// Returns for each clip that overlaps the one before it the fades of their mix.
+fn mixes(script: &StageScript, times: &[ActionTimes]) -> HashMap<usize, ClipMix> {
+    let mut found = HashMap::new();
+    visit_clips(script, times, |action, overlap| {
+        found.extend(overlap.map(|overlap| (action, overlap.mix)));
+        let element = script.element(action);
+        script.is_released(element, script.time(element, "fade-out").unwrap_or_default(), false)
+    });
+    found
 }
 
 /// Returns the duration of one repetition of each action of a changed script: of a take and of a way by their own attributes, of others as it was.

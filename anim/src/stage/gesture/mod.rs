@@ -9,8 +9,10 @@
 //! the functions that return splices, whose results [`spliced_script`] applies and checks together. It changes the texts of things of a project,
 //! too; gestures that return one text refuse those, because they are in another text.
 //!
-//! Where a gesture makes a clip overlap the one before it in its lane, the `fade-in` of the later one is as long as the overlap, as in other
-//! timelines; it follows the overlap unless it was given another length.
+//! If a gesture makes a clip overlap the one before it in its lane, the `fade-in` of the later one is as long as the overlap, as in other
+//! timelines; it follows the overlap unless it was given another length. A clip that comes inside of another one has no such length: it gets a `fade-in`
+//! and a `fade-out` of a quarter of a second, at most half of itself, so that the other one continues after it. Without a `fade-out` it would hold
+//! its last pose instead, by the rules of time.
 //!
 //! | gesture | what it changes |
 //! |---|---|

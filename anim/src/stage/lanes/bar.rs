@@ -1,7 +1,7 @@
 //! A bar of the timeline: an action with its times and its name.
 
 use super::bar_clip::BarClip;
-use super::overlap::{Takeover, is_main};
+use super::overlap::{ClipTakeover, Takeover, is_main};
 use crate::stage::StagePlan;
 use crate::stage::script::{ScriptElement, StageRepeat, StageScript};
 use crate::stage::time::{Decimal, StageTime};
@@ -40,6 +40,9 @@ pub struct SceneBar {
     pub is_main: bool,
     /// How it takes over from the one before it.
     pub takeover: Takeover,
+    /// The time from which it is mixed with the one before it again, which is still on after it; its end if it is cut off. `None` if it does not give the
+    /// pose back.
+    pub hand_back: Option<StageTime>,
     /// Whether it has no length of its own.
     pub is_passive: bool,
     /// The included file that has the action, relative to the folder of the document: it cannot be changed here. `None`: the script itself.
@@ -58,7 +61,7 @@ impl SceneBar {
         script: &StageScript,
         plan: &StagePlan,
         action: usize,
-        takeover: Takeover,
+        takeover: Option<ClipTakeover>,
         sound_stop: Option<StageTime>,
     ) -> Self {
         let (own, element) = (&script.actions()[action], script.element(action));
@@ -77,7 +80,8 @@ impl SceneBar {
             fade_in: time(if kind == "shot" { "blend" } else { "fade-in" }),
             fade_out: time("fade-out"),
             is_main: is_main(element),
-            takeover,
+            takeover: takeover.map_or(Takeover::After, |own| own.takeover),
+            hand_back: takeover.and_then(|own| own.hand_back),
             is_passive: own.passive,
             file: script.tree().file_of(element).map(Into::into),
             clip: BarClip::of(script, plan, action),

@@ -16,7 +16,7 @@ mod rows;
 pub use bar::{BarMark, SceneBar};
 pub use bar_clip::BarClip;
 pub use overlap::Takeover;
-pub(in crate::stage) use overlap::{is_same, overlaps};
+pub(in crate::stage) use overlap::{ClipMix, is_same, visit_clips};
 
 use super::StagePlan;
 use super::script::StageScript;
@@ -89,7 +89,7 @@ impl SceneLanes {
             if element.row.group != ElementGroup::Action || element.row.name == "wait" {
                 continue;
             }
-            let takeover = takeovers.get(&action).copied().unwrap_or(Takeover::After);
+            let takeover = takeovers.get(&action).copied();
             let bar = SceneBar::new(script, plan, action, takeover, stops.get(&action).copied());
             if !script.actions()[action].passive {
                 end = end.max(bar.end);

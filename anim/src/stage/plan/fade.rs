@@ -27,11 +27,7 @@ impl ActiveSpan {
         let element = script.element(action);
         let time = |name: &str| script.time(element, name).unwrap_or_default();
         let (fade_in, fade_out) = (time("fade-in"), time("fade-out"));
-        let is_released = match element.value("fill") {
-            Some("hold") => false,
-            Some(_) => true,
-            None => releases || fade_out > StageTime::ZERO,
-        };
+        let is_released = script.is_released(element, fade_out, releases);
         Self { action, begin, stop, fade_in, fade_out, is_released }
     }
 

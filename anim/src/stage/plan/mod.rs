@@ -45,6 +45,7 @@ use crate::data::Transform;
 use crate::fast::simd::SimdLevel;
 use build::{PlanBuilder, holding_order};
 use cues::ShotCue;
+use fade::ActiveSpan;
 use glam::{DVec3, Vec3};
 use holds::HoldKind;
 use needed::NeededThings;
@@ -275,12 +276,14 @@ impl StagePlan {
         self.things.get(thing)?.places.in_progress(time)
     }
 
-    /// Returns the action that plays a take with the whole body of a thing at `time`, or that played one before, the one that began last, and the time
-    /// since the start of the take. `None` before the first one.
+    /// Returns the action that plays a take with the whole body of a thing at `time`, or that played one before, the one that began last and was not released
+    /// since, and the time since the start of the take. `None` before the first one.
     pub fn take_at(&self, thing: usize, time: StageTime) -> Option<(usize, StageTime)> {
         let thing = self.things.get(thing)?;
         let lane = thing.poses.first()?;
-        let cue = lane.cues[..lane.cues.partition_point(|cue| cue.span.begin <= time)].last()?;
+        let begun = &lane.cues[..lane.cues.partition_point(|cue| cue.span.begin <= time)];
+        let decides = |span: &ActiveSpan| !(span.is_released && span.stop <= time);
+        let cue = begun.iter().rfind(|cue| decides(&cue.span)).or(begun.last())?;
         Some((cue.span.action, poses::take_time(cue, &thing.places, time)))
     }
 

@@ -17,6 +17,20 @@ impl StageScript {
         }
     }
 
+    /// Returns whether an action is released at its end, with a fade of this duration there: by its `fill`, else if it fades out or `releases`. One that is not
+    /// is held in its last state.
+    pub(in crate::stage) fn is_released(
+        &self,
+        element: &ScriptElement,
+        fade_out: StageTime,
+        releases: bool,
+    ) -> bool {
+        match element.value("fill") {
+            Some(fill) => fill != "hold",
+            None => releases || fade_out > StageTime::ZERO,
+        }
+    }
+
     /// Returns the factor of the speed of an action; 1 where it has none.
     pub(in crate::stage) fn speed(&self, action: usize) -> Decimal {
         self.element(action).value("speed").and_then(Decimal::parse).unwrap_or(Decimal::ONE)

@@ -31,7 +31,7 @@ use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2};
 pub use lane_layout::{SceneBarPart, SceneHit, SceneLaneLayout};
 use paint::BarContents;
-pub use paint::mixed_part;
+pub use paint::{handed_back_part, mixed_part};
 use sheet::SceneSheet;
 use std::sync::Arc;
 pub use take_marks::{EventMark, events_of};

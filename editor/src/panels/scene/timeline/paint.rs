@@ -206,16 +206,19 @@ fn fades(painter: &Painter, sheet: &SceneSheet<'_>, bar: &SceneBar, rect: Rect, 
     }
 }
 
-/// Draws how a bar takes over from one that is still on: a cross where they mix, a line where it cuts that one off.
+/// Draws how a bar takes over from one that is still on, and gives back to it: a cross where they mix, a line where one cuts the other off.
 fn takeover(painter: &Painter, bar: &SceneBar, rect: Rect, sheet: &SceneSheet<'_>) {
-    let Some(part) = mixed_part(bar, rect, sheet.scale) else { return };
-    if part.width() == 0.0 {
-        let stroke = Stroke::new(2.0, sheet.theme.text.gamma_multiply(0.8));
-        painter.vline(part.left() + 1.0, part.y_range(), stroke);
-    } else {
-        let stroke = Stroke::new(1.0, sheet.theme.text.gamma_multiply(0.45));
-        painter.line_segment([part.left_bottom(), part.right_top()], stroke);
-        painter.line_segment([part.left_top(), part.right_bottom()], stroke);
+    let ends = [(mixed_part(bar, rect, sheet.scale), 1.0), (handed_back_part(bar, rect, sheet.scale), -1.0)];
+    for (part, inwards) in ends {
+        let Some(part) = part else { continue };
+        if part.width() == 0.0 {
+            let stroke = Stroke::new(2.0, sheet.theme.text.gamma_multiply(0.8));
+            painter.vline(part.left() + inwards, part.y_range(), stroke);
+        } else {
+            let stroke = Stroke::new(1.0, sheet.theme.text.gamma_multiply(0.45));
+            painter.line_segment([part.left_bottom(), part.right_top()], stroke);
+            painter.line_segment([part.left_top(), part.right_bottom()], stroke);
+        }
     }
 }
 
@@ -227,6 +230,16 @@ pub fn mixed_part(bar: &SceneBar, rect: Rect, scale: &TimeScale) -> Option<Rect>
         Takeover::Mix(until) => scale.x_of(until.seconds() as f32).min(rect.right()),
     };
     Some(Rect::from_min_max(rect.min, pos2(right.max(rect.left()), rect.bottom())))
+}
+
+/// Returns the part of a bar in which it mixes with the one before it again, which is still on after it, without width if it is cut off; `None` if that one
+/// is over.
+pub fn handed_back_part(bar: &SceneBar, rect: Rect, scale: &TimeScale) -> Option<Rect> {
+    let left = match bar.hand_back? {
+        from if from >= bar.end => rect.right(),
+        from => scale.x_of(from.seconds() as f32).max(rect.left()),
+    };
+    Some(Rect::from_min_max(pos2(left.min(rect.right()), rect.top()), rect.max))
 }
 
 /// Draws the name of a bar, cut at its right end.
