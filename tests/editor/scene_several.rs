@@ -7,8 +7,10 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::scene::timeline::{handed_back_part, mixed_part};
 use dragonfly::panels::{Effect, Request};
+use dragonfly_anim::stage::table::{ELEMENTS, ElementGroup};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::ScriptLabel;
 use egui::{Key, Modifiers, pos2};
 
 const LOOKS: usize = 5;
@@ -276,4 +278,28 @@ fn steps_of_scenes_have_names_of_their_own() {
     assert_eq!(last_label(&high), "Drop to the ground");
     run(&mut window, Id::AddEffect);
     assert_eq!(last_label(&window), "Add effect");
+    run(&mut window, Id::AddTitle);
+    assert_eq!(last_label(&window), "Add title");
+    window.state_mut().state.execute(Request::Scene(SceneRequest::SelectThings(
+        ["ben", "aisle"].map(Box::from).to_vec(),
+        Choice::Replace,
+    )));
+    run(&mut window, Id::WalkAlong);
+    assert_eq!(last_label(&window), "Add move");
+}
+
+#[test]
+fn a_step_that_adds_an_action_has_the_name_of_that_kind_of_action() {
+    let actions = ELEMENTS.iter().filter(|row| row.group == ElementGroup::Action);
+    let mut labels: Vec<&str> = Vec::new();
+    for row in actions.filter(|row| row.name != "include") {
+        let label = ScriptLabel::adding(row.name);
+        assert_ne!(label, ScriptLabel::AddAction, "{}", row.name);
+        labels.push(label.text());
+    }
+    labels.sort_unstable();
+    let count = labels.len();
+    labels.dedup();
+    assert_eq!(labels.len(), count, "two kinds have one name: {labels:?}");
+    assert!(count > 12 && ScriptLabel::ALL.iter().all(|label| ScriptLabel::of(label.text()) == Some(*label)));
 }

@@ -114,6 +114,9 @@ fn the_menu_of_a_lane_adds_the_other_actions_by_their_table() {
         choose(window, path);
         let line = new_lines(FOXES, &text(window)).concat();
         assert!(window.state().state.read().scene().unwrap().errors.is_empty(), "{line}");
+        let label = window.state().edited.as_ref().unwrap().labels()[0].unwrap_or_default();
+        let name = line.trim_start_matches('<').split(' ').next().unwrap_or_default();
+        assert_eq!(label, format!("Add {name}"));
         undo(window);
         line
     };

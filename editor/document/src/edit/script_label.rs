@@ -52,6 +52,15 @@ script_labels! {
     AddSound = "Add sound",
     AddFiles = "Add files",
     AddAction = "Add action",
+    AddTitle = "Add title",
+    AddLook = "Add look",
+    AddTurn = "Add turn",
+    AddMove = "Add move",
+    AddPlace = "Add place",
+    AddSet = "Add set",
+    AddChange = "Add change",
+    AddRun = "Add run",
+    AddWait = "Add wait",
     Duplicate = "Duplicate",
     Paste = "Paste",
     Delete = "Delete",
@@ -80,6 +89,28 @@ impl ScriptLabel {
     /// Returns the label with these words; `None` for those of another version of the program.
     pub fn of(text: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|label| label.text() == text)
+    }
+
+    /// Returns the label of a step that adds an action, by the name of its element. It has the words of the menus, or those of
+    /// the script if menus have none.
+    pub fn adding(element: &str) -> Self {
+        match element {
+            "play" => Self::AddClip,
+            "shot" => Self::AddShot,
+            "sound" => Self::AddSound,
+            "title" => Self::AddTitle,
+            "look" => Self::AddLook,
+            "turn" => Self::AddTurn,
+            "move" => Self::AddMove,
+            "place" => Self::AddPlace,
+            "attach" => Self::Attach,
+            "detach" => Self::Detach,
+            "set" => Self::AddSet,
+            "change" => Self::AddChange,
+            "run" => Self::AddRun,
+            "wait" => Self::AddWait,
+            _ => Self::AddAction,
+        }
     }
 
     /// Returns whether the user writes into the text itself.

@@ -257,7 +257,7 @@ fn duplicated(base: &SceneBase, things: &[Box<str>]) -> Result<(StageScript, Vec
 pub(in crate::panels) fn add_title(workspace: &mut Workspace) -> Option<Effect> {
     let at = workspace.read().scene_time();
     let row = NEW_ACTIONS.iter().find(|row| row.element == "title")?;
-    addition(workspace, ScriptLabel::AddAction, ChangedThings::None, |base| {
+    addition(workspace, ScriptLabel::adding(row.element), ChangedThings::None, |base| {
         add_new_action(&base.scene(), row, None, None, at)
     })
 }

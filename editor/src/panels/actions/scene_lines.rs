@@ -420,7 +420,7 @@ pub(in crate::panels) fn walk_along(workspace: &mut Workspace) -> Option<Effect>
         let name = |take: &StageTake| take.name().to_owned();
         let walks = takes.iter().map(name).find(|name| name.to_lowercase().contains("walk"));
         let text = follow_path(&base.scene(), &role.id, &path.id, walks.as_deref(), at)?;
-        Ok(base.step(text, ScriptLabel::AddAction, ChangedThings::Thing(&role.id)))
+        Ok(base.step(text, ScriptLabel::AddMove, ChangedThings::Thing(&role.id)))
     })
 }
 

@@ -97,7 +97,7 @@ impl ActionMenu<'_> {
         self.requests.push(gesture_request(
             self.context,
             self.scene,
-            (SceneRequest::AddActions, ScriptLabel::AddAction, things),
+            (SceneRequest::AddActions, ScriptLabel::adding(row.element), things),
             |scene| add_new_action(scene, row, who, target, at),
         ));
         ui.close();

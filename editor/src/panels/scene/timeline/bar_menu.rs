@@ -96,7 +96,7 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
         requests.push(gesture_request(
             sheet.context,
             sheet.scene,
-            (SceneRequest::Text, ScriptLabel::AddAction, things),
+            (SceneRequest::Text, ScriptLabel::AddWait, things),
             wait,
         ));
         ui.close();
