@@ -110,6 +110,65 @@ fn each_step_of_typing_names_what_was_typed_and_its_line() {
     assert_eq!(texts.last().map(String::as_str), Some("“es” in line 3"), "{texts:?}");
 }
 
+/// Returns the labels of the steps, with what they are about.
+fn named_steps(window: &Window) -> Vec<(&'static str, String)> {
+    let read = window.state().state.read();
+    let history = &read.view.expect("a scene").history;
+    history.steps.iter().copied().zip(history.about.iter().map(ToString::to_string)).collect()
+}
+
+#[test]
+fn letters_that_arrive_in_one_frame_are_typed_and_one_step_a_word() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "Two foxes meet"));
+    for together in [" ag", "ai", "n an", "d again"] {
+        let letters = together.chars().map(|letter| Event::Text(letter.to_string()));
+        window.input_mut().events.extend(letters);
+        window.run_steps(1);
+    }
+    window.run_steps(2);
+    assert!(text(&window).contains("Two foxes meet again and again."));
+    let typed = |word: &str| ("Type", format!("“{word}” in line 3"));
+    let steps = named_steps(&window);
+    assert_eq!(steps[steps.len() - 3..], [typed("again"), typed("and"), typed("again")], "{steps:?}");
+    assert!(steps.iter().all(|(label, _)| *label == "Type"), "{steps:?}");
+    while window.state().steps().0 > 0 {
+        window.state_mut().change(Change::Undo);
+    }
+    window.run_steps(3);
+    assert_eq!(text(&window), FOXES);
+}
+
+#[test]
+fn only_what_comes_from_the_clipboard_is_pasted_and_it_is_a_step_of_its_own() {
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "Two foxes meet"));
+    type_text(&mut window, " a");
+    window.event(Event::Paste("x".to_owned()));
+    window.run_steps(2);
+    type_text(&mut window, "b");
+    assert!(text(&window).contains("Two foxes meet axb."));
+    let steps = named_steps(&window);
+    let labels: Vec<&str> = steps.iter().map(|(label, _)| *label).collect();
+    assert_eq!(labels[labels.len() - 3..], ["Type", "Paste text", "Type"], "{steps:?}");
+    // A suggestion is no paste.
+    let mut window = scene(FOXES).window();
+    put_cursor(&mut window, place(FOXES, "<move who=\"ben\" path=\"aisle\" take=\"Wal"));
+    for _ in 0..3 {
+        window.key_press(Key::Backspace);
+        window.run_steps(1);
+    }
+    type_text(&mut window, "R");
+    window.key_press(Key::Tab);
+    window.run_steps(3);
+    let steps = named_steps(&window);
+    assert!(
+        text(&window).contains("take=\"Run\" begin=\"1\"")
+            && steps.iter().all(|(label, _)| *label != "Paste text"),
+        "{steps:?}"
+    );
+}
+
 #[test]
 fn while_the_text_is_broken_the_last_good_scene_stays_and_the_error_is_listed() {
     let mut window = scene(FOXES).window();

@@ -12,7 +12,7 @@ use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Gives a chain of bones the pose in which it lies along a line. It changes what `set`, `pend` or `offset_keys` would change, under a name of its own.
+/// Gives a chain of bones a pose along a line. It changes what `set`, `pend` or `offset_keys` would change, under a name of its own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PoseLine {

@@ -8,6 +8,7 @@ mod lines;
 mod margin;
 mod popup;
 pub(super) mod text_choice;
+mod typed_steps;
 mod typed_text;
 mod typing;
 
@@ -16,20 +17,18 @@ use super::super::panel::PanelSubject;
 use super::super::request::Request;
 use super::super::theme::Theme;
 use super::super::{Panel, PanelPlace, widgets};
-use super::{SceneRequest, ScriptChange};
+use super::SceneRequest;
 use crate::panels::commands::Id as CommandId;
 use coloring::ScriptLayout;
 use cursor::{cursor_request, is_text_of, selected_range, with_names};
 use dragonfly_anim::stage::script::ScriptError;
-use dragonfly_anim::stage::splice::TextSplice;
 use dragonfly_anim::stage::writing::completions;
-use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::{Change, SceneView};
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
-    CornerRadius, EventFilter, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer, TextEdit, Ui,
-    pos2,
+    CornerRadius, Event, EventFilter, Frame, Id, Key, Margin, Modifiers, Rect, ScrollArea, TextBuffer,
+    TextEdit, Ui, pos2,
 };
 use error_list::{ListClick, SceneErrorList};
 use find::{FindEvent, ScriptFind};
@@ -39,8 +38,9 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 use text_choice::ShownText;
+use typed_steps::typed_steps;
 use typed_text::TypedText;
-use typing::TypedWord;
+use typing::{TypedWord, WrittenText};
 
 /// The editor of the script.
 #[derive(Debug, Default)]
@@ -219,6 +219,8 @@ impl ScriptPanel {
             self.followed = None;
         }
         let asks = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::CTRL, Key::Space));
+        let is_paste = |event: &Event| matches!(event, Event::Paste(text) if !text.is_empty());
+        let is_pasted = ui.input(|input| input.events.iter().any(is_paste));
         let width = margin::width(ui, self.buffer.as_str());
         let text_width = self.layout.galley(ui, self.buffer.as_str()).size().x + 24.0;
         let room = text_width.max(ui.available_width() - width - 20.0);
@@ -287,7 +289,8 @@ impl ScriptPanel {
         let cursor = output.cursor_range.map(|range| byte_of(self.buffer.as_str(), range.primary.index.0));
         let before = self.buffer.take_before();
         if let Some(before) = &before {
-            self.typed(before, time, context, requests);
+            let written = if is_pasted { WrittenText::Pasted } else { WrittenText::Typed };
+            self.written(before, written, time, context, requests);
             let at = cursor.unwrap_or(self.buffer.as_str().len());
             self.suggest(scene, at, false);
         } else if asks && let Some(at) = cursor {
@@ -336,25 +339,23 @@ impl ScriptPanel {
         }
     }
 
-    /// Sends what was typed as a part of a word.
-    fn typed(&mut self, before: &str, time: f64, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let Some(splice) = TextSplice::between(before, self.buffer.as_str()) else { return };
-        let (gesture, over) = self.word.gesture(&splice, time, || context.new_gesture());
-        requests.extend(over.map(|gesture| Request::Change(Change::Release(gesture))));
-        let label = match (splice.range.is_empty(), splice.text.is_empty()) {
-            (_, true) => ScriptLabel::DeleteText,
-            (false, false) => ScriptLabel::ReplaceText,
-            (true, false) if splice.text.chars().count() > 1 => ScriptLabel::PasteText,
-            (true, false) => ScriptLabel::Type,
-        };
-        let from: Arc<str> = before.into();
-        let text = self.buffer.as_str().to_owned();
-        let (also, things) = (Vec::new(), Arc::default());
-        let change = ScriptChange { from, text, also, label, gesture: Some(gesture), things };
-        requests.push(Request::Scene(match self.shown {
-            ShownText::Script => SceneRequest::Typed(change),
-            ShownText::Project => SceneRequest::TypedProject(change),
-        }));
+    /// Sends what was written, each word as a step.
+    fn written(
+        &mut self,
+        before: &str,
+        written: WrittenText,
+        time: f64,
+        context: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let texts = [before, self.buffer.as_str()];
+        for step in typed_steps(&mut self.word, texts, written, time, || context.new_gesture()) {
+            requests.extend(step.over.map(|gesture| Request::Change(Change::Release(gesture))));
+            requests.push(Request::Scene(match self.shown {
+                ShownText::Script => SceneRequest::Typed(step.change),
+                ShownText::Project => SceneRequest::TypedProject(step.change),
+            }));
+        }
     }
 
     /// Ends the word after a pause, or when the field has lost the focus.
@@ -402,7 +403,7 @@ impl ScriptPanel {
         state.store(ui.ctx(), id);
         ui.memory_mut(|memory| memory.request_focus(id));
         if let Some(before) = self.buffer.take_before() {
-            self.typed(&before, time, context, requests);
+            self.written(&before, WrittenText::Suggested, time, context, requests);
         }
     }
 }
