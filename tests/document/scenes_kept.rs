@@ -1,5 +1,6 @@
 //! The work on a script is in the journal before it is shown, and comes back after a kill.
 
+use super::scene_models_later::asks_to_quit;
 use super::scenes::{SCENE, replaced, scene, scene_of};
 use dragonfly_document::{Change, Decision, DocumentMessage, SaveTo, View};
 use dragonfly_kit::document::test_document::{TestDocument, copy_after_kill};
@@ -16,6 +17,22 @@ pub(super) fn restored(path: &Path, autosave: &Path, steps: usize) -> (TestDocum
     document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
     let view = document.wait_for_view(|view| view.history.done > 0 || !view.history.saved);
     (document, view)
+}
+
+#[test]
+fn a_script_with_an_error_is_asked_about_until_it_is_saved_as_it_was_typed() {
+    let folder = Folder::new("scene-error-kept");
+    let path = scene(&folder);
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    document.edit(replaced(SCENE, "</cast>", "</cas>"));
+    let view = document.wait_for_view(|view| view.history.done == 1);
+    let error = scene_of(&view).first_error().expect("an error");
+    assert!(error.starts_with("scene.xml:7:"), "{error}");
+    assert!(!asks_to_quit(&mut document), "it is not saved");
+    document.save(SaveTo::Own);
+    assert!(asks_to_quit(&mut document), "nothing is lost");
+    assert_eq!(fs::read_to_string(&path).expect("a file"), SCENE.replace("</cast>", "</cas>"));
 }
 
 #[test]

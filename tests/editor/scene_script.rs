@@ -2,15 +2,16 @@
 
 use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::workbench::Window;
+use dragonfly::panels::dialogs::UnsavedQuestion;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::scene::script::ScriptPanel;
 use dragonfly::panels::{Panel, Request, style};
-use dragonfly_document::Change;
+use dragonfly_document::{Change, Then};
 use dragonfly_kit::counting::count;
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Event, Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 /// Puts the cursor of the script at a byte of its text.
 pub(crate) fn put_cursor(window: &mut Window, at: usize) {
@@ -185,6 +186,30 @@ fn while_the_text_is_broken_the_last_good_scene_stays_and_the_error_is_listed() 
     type_text(&mut window, "k");
     assert_eq!(text(&window), FOXES);
     assert!(window.state().state.read().scene().unwrap().errors.is_empty());
+}
+
+#[test]
+fn the_question_about_unsaved_work_names_the_place_of_an_error_that_was_typed() {
+    let mut window = scene(FOXES).window();
+    let ask = |window: &mut Window| {
+        let question = UnsavedQuestion { then: Then::Quit };
+        window.state_mut().state.ask(question.into());
+        window.run_steps(3);
+        let error = window.query_all_by_label_contains("is saved as it is: scene.xml:").next();
+        let text = error.and_then(|node| node.accesskit_node().label());
+        window.state_mut().state.execute(Request::Dismiss);
+        window.run_steps(2);
+        text
+    };
+    put_cursor(&mut window, place(FOXES, "Two foxes"));
+    type_text(&mut window, "!");
+    assert_eq!(ask(&mut window), None, "without an error it is as before");
+    put_cursor(&mut window, place(FOXES, "</cas") + 1);
+    window.key_press(Key::Backspace);
+    window.run_steps(3);
+    let place = window.state().state.read().scene().unwrap().errors[0].place;
+    let asked = ask(&mut window).expect("the error");
+    assert!(asked.contains(&format!("scene.xml:{place}: ")), "{asked}");
 }
 
 #[test]

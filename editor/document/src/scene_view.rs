@@ -71,6 +71,13 @@ impl SceneView {
         self.texts.list().first().is_some_and(|main| main.name != self.name)
     }
 
+    /// Returns the first error of the newest texts of the script and its project, after the name of the file, its line and column; `None` if they have none.
+    pub fn first_error(&self) -> Option<String> {
+        let main = self.texts.list().first().map_or("", |main| &*main.name);
+        let texts = [(&self.errors, &*self.name), (&self.project_errors, main), (&self.shared_errors, main)];
+        texts.into_iter().find_map(|(errors, name)| errors.first().map(|error| error.in_file(name)))
+    }
+
     /// Returns whether what plays is the newest text, with the cast of the newest project.
     pub fn is_current(&self) -> bool {
         let wrong = [&self.errors, &self.shared_errors, &self.project_errors];

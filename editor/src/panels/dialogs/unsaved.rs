@@ -39,6 +39,11 @@ impl QuestionKind for UnsavedQuestion {
         if let Some(last) = ask.view.and_then(|view| view.history.last_unsaved()) {
             ask.adds(last);
         }
+        // The file gets the text as it is; nothing of it is lost.
+        let error = ask.view.and_then(|view| view.scene.as_ref()?.first_error());
+        if let Some(error) = error {
+            ask.warns(format!("It has an error and is saved as it is: {error}"));
+        }
         let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);
         let cancel = ("Cancel", "Return to the document", Tone::Plain, UnsavedChoice::Cancel);
         let lose = (
