@@ -124,6 +124,7 @@ mod scene_several;
 mod scene_shared;
 mod scene_shots;
 mod scene_sounds;
+mod scene_split;
 mod scene_takes;
 mod scene_things;
 mod scene_thumbnails;

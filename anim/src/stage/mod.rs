@@ -68,7 +68,8 @@
 //!    that; `begin="grab.touch-0.5"` replaces it by a moment of another action: its `begin`, its `end`, or an `<at>` of its take. `prev` is
 //!    the action before.
 //! 2. *End.* A `play` lasts as long as its part of the take, divided by its speed; a `move` as its way takes; the others last no time. `repeat`
-//!    multiplies that; `dur` or `end` replaces it. Without a `speed`, `dur` and `end` stretch a `move`; otherwise they cut.
+//!    multiplies that, without what is before the `start` of the first repetition; `dur` or `end` replaces it. Without a `speed`, `dur` and
+//!    `end` stretch a `move`; otherwise they cut.
 //! 3. *Passive* is what has no length of its own: `look`, `run`, `shot` and `title` without `dur` or `end`, `repeat="fill"`, and everything
 //!    whose `end` is the end of a container around it. It lasts to the start of the next action in its `seq` if that has a `begin` of its own,
 //!    else to the end of the nearest `par`; a `shot` to the next shot anywhere. It lengthens nothing.
@@ -106,7 +107,7 @@
 //! nearest `par`". A title without a duration is passive; it would never be seen. A container with an end of its own stops what is inside. Points of a take
 //! respect `from` and a negative `speed`. Ids may have `-` before a digit (`scene-1`); only names of moments may not, because `touch-0.5` has
 //! an offset. Ends before begins take no time, with a note. `gap`, for a `move` to a thing, is the distance at which it stops, and `turn`, for `attach`, rotates. `repeat` is an
-//! attribute of `play`, `move` and `sound` alone.
+//! attribute of `play`, `move` and `sound` alone. `start`, for `play`, begins the first repetition in the middle of its part.
 //!
 //! # Scripts in scripts
 //!

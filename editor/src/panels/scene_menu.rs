@@ -48,6 +48,7 @@ const KINDS: [(&str, &[Id]); 5] = [
             Id::ClipLater,
             Id::ClipStartToPlayhead,
             Id::ClipEndToPlayhead,
+            Id::SplitActions,
             Id::PreviousEdge,
             Id::NextEdge,
             Id::PreviousAction,

@@ -8,7 +8,7 @@ use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, GestureScene, SequenceOrder, add_clip, copied_clips, cut_to,
     delete_clip, delete_clips, duplicate_clip, duplicate_clips, face_thing, move_clip, move_clips,
     move_clips_to_lane, move_path_point, move_to_lane, place_thing, set_fade, set_repeat, set_speed,
-    trim_end, trim_start,
+    split_clips, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::{LaneSubject, SceneLanes};
 use dragonfly_anim::stage::script::{ScriptContext, StageRepeat, StageScript};
@@ -54,7 +54,7 @@ fn every_gesture_on_what_is_in_another_file_is_refused_with_its_name() {
     for name in ["acts", "x", "put"] {
         let at = action(&script, name);
         let twice = StageRepeat::Times(Decimal::parse("2").expect("a number"));
-        let gestures: [Result<String, GestureRefusal>; 14] = [
+        let gestures: [Result<String, GestureRefusal>; 15] = [
             move_clip(&scene, at, seconds(0.5), SequenceOrder::Keep, Followers::Follow),
             trim_start(&scene, at, seconds(0.1)),
             trim_end(&scene, at, seconds(0.2), Followers::Stay),
@@ -70,6 +70,7 @@ fn every_gesture_on_what_is_in_another_file_is_refused_with_its_name() {
             move_to_lane(&scene, at, seconds(0.5), "anna", Followers::Follow),
             move_clips_to_lane(&scene, &[at], seconds(0.5), "anna", Followers::Follow)
                 .map(|moved| moved.text),
+            split_clips(&scene, &[at, y], seconds(0.3)).map(|split| split.text),
         ];
         for gesture in gestures {
             assert_eq!(

@@ -33,6 +33,7 @@ mod schema;
 mod shapes;
 mod spans;
 mod splices;
+mod splitting;
 mod times;
 mod travels;
 mod typed;

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// Returns a model of hips 1 m above the ground: `Step` goes 0.5 m along z in 1 s, slow and then fast, and 0.1 m up; `Quarter` turns by 90
 /// degrees to the left in 1 s and goes 1 m along z.
-fn stepper() -> Arc<StageModel> {
+pub(super) fn stepper() -> Arc<StageModel> {
     let rest = Transform { translation: Vec3::Y, ..Transform::IDENTITY };
     let hips = Bone { rest, ..Bone::root("hips") };
     let places = [Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 1.1, 0.125), Vec3::new(0.0, 1.0, 0.5)];

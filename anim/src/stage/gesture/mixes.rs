@@ -45,16 +45,18 @@ impl ActionOrigins {
         Self(all)
     }
 
-    /// Returns the origins where a copy of an action is after it. What a copy was before is the original.
-    pub(super) fn copied(scene: &GestureScene<'_>, action: usize) -> Self {
+    /// Returns the origins where copies of actions, in the order of the text, are after them. What a copy was before is the original.
+    pub(super) fn copied(scene: &GestureScene<'_>, actions: &[usize]) -> Self {
         let mut all = Self::same(scene).0;
-        let branch = scene.script.branch(action);
-        all.splice(branch.end..branch.end, branch.map(Some));
+        for &action in actions.iter().rev() {
+            let branch = scene.script.branch(action);
+            all.splice(branch.end..branch.end, branch.map(Some));
+        }
         Self(all)
     }
 
     /// Returns for each action of the script after the gesture what it was before; `None` for a new one.
-    fn in_script(&self, scene: &GestureScene<'_>, script: &StageScript) -> Vec<Option<usize>> {
+    pub(super) fn in_script(&self, scene: &GestureScene<'_>, script: &StageScript) -> Vec<Option<usize>> {
         let is_own =
             |origin: &&Option<usize>| origin.is_none_or(|origin| scene.script.element(origin).is_own());
         let mut own = self.0.iter().filter(is_own);
@@ -130,7 +132,7 @@ fn mixes(script: &StageScript, times: &[ActionTimes]) -> HashMap<usize, ClipMix>
 }
 
 /// Returns the duration of one repetition of each action of a changed script: of a take and of a way by their own attributes, of others as it was.
-fn lengths_after(
+pub(super) fn lengths_after(
     scene: &GestureScene<'_>,
     script: &StageScript,
     origins: &[Option<usize>],

@@ -22,6 +22,7 @@
 //! | [`set_fade`], [`set_speed`], [`stretch_to`], [`set_repeat`] | the attribute; removed where it is the default |
 //! | [`delete_clip`], [`duplicate_clip`] | one element |
 //! | [`move_clips`], [`delete_clips`] | the same for several actions |
+//! | [`split_clips`] | for each action a second element, and the part of the take or the `dur` |
 //! | [`delete_things`] | the elements of things and of the actions that name them |
 //! | [`move_to_lane`] | `who` and `begin`, and the place in the text |
 //! | [`copied_clips`], [`paste_clips`] | new elements, one for each that was copied |
@@ -42,6 +43,7 @@ mod begin;
 mod cast;
 mod copying;
 mod draft;
+mod halves;
 mod holding;
 mod insert;
 mod mixes;
@@ -54,6 +56,8 @@ mod places;
 mod removal;
 mod scene;
 mod several;
+mod split;
+mod split_check;
 mod thing_removal;
 mod trim;
 
@@ -77,5 +81,6 @@ pub use places::{face_splices, face_thing, place_splices, place_thing};
 pub use removal::{delete_clip, duplicate_clip};
 pub use scene::{Followers, GestureRefusal, GestureScene, in_scene_texts, in_this_text};
 pub use several::{delete_clips, move_clips};
+pub use split::{SplitClips, split_clips};
 pub use thing_removal::delete_things;
 pub use trim::{trim_end, trim_start};

@@ -90,6 +90,6 @@ pub fn duplicate_clip(scene: &GestureScene<'_>, action: usize) -> Result<String,
     let copied = lengths[action..copy].to_vec();
     lengths.splice(copy..copy, copied);
     let draft = ScriptDraft::of(scene.script).then(|tree| duplicate(tree, own.element))?.with(&changes)?;
-    mixed(scene, draft, &ActionOrigins::copied(scene, action))?
+    mixed(scene, draft, &ActionOrigins::copied(scene, &[action]))?
         .finish_with(&lengths, |changed| scene.keeps_length(action, changed, copy))
 }

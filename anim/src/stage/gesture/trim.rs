@@ -41,7 +41,7 @@ pub fn trim_start(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Res
         let rest = (dur - by).max(StageTime::ZERO);
         changes.push((own.element, "dur", Some(text(scene, element, "dur", rest))));
     }
-    if is_play && own.repeat != StageRepeat::Times(Decimal::ONE) {
+    if is_play && repeats(scene, action) {
         changes.extend(fewer_repetitions(scene, action, by));
     } else if is_play {
         changes.push(trimmed_take(scene, action, by)?);
@@ -67,7 +67,8 @@ fn fewer_repetitions(
     if has_end || times.once <= StageTime::ZERO {
         return None;
     }
-    let (repetitions, _) = repeated(times.once, times.stop - times.begin - by);
+    let skipped = scene.script.skipped(action, times.once);
+    let (repetitions, _) = repeated(times.once, times.stop - times.begin - by + skipped);
     Some((own.element, "repeat", (repetitions != "1").then_some(repetitions)))
 }
 
@@ -153,7 +154,7 @@ fn played_for(
         scene.script.time(element, "from").unwrap_or_default(),
         scene.script.time(element, "to").or(take).unwrap_or_default(),
     );
-    let plays_once = own.repeat == StageRepeat::Times(Decimal::ONE);
+    let plays_once = !repeats(scene, action);
     // The part of the take that `length` needs, on the clock of the take.
     let part = length.times(speed);
     let part = if part < StageTime::ZERO { -part } else { part };
@@ -172,8 +173,15 @@ fn played_for(
     if once <= StageTime::ZERO {
         return ((own.element, "dur", Some(text(scene, element, "dur", length))), length);
     }
-    let (times, written) = repeated(once, length);
-    ((own.element, "repeat", (times != "1").then_some(times)), written)
+    let skipped = scene.script.skipped(action, once);
+    let (times, written) = repeated(once, length + skipped);
+    ((own.element, "repeat", (times != "1").then_some(times)), written - skipped)
+}
+
+/// Returns whether a play repeats its part of the take, or begins in the middle of it.
+fn repeats(scene: &GestureScene<'_>, action: usize) -> bool {
+    scene.script.actions()[action].repeat != StageRepeat::Times(Decimal::ONE)
+        || scene.script.element(action).attribute("start").is_some()
 }
 
 /// Returns how often something that takes `once` is repeated to last for `length`, with as few decimals as bring it within a tenth of a

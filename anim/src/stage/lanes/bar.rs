@@ -99,7 +99,8 @@ impl SceneBar {
     pub fn repetitions(&self, most: usize) -> impl Iterator<Item = StageTime> + use<'_> {
         let whole = self.once > StageTime::ZERO && self.repeat != StageRepeat::Times(Decimal::ONE);
         let next = move |&time: &StageTime| Some(time + self.once);
-        let first = whole.then_some(self.begin + self.once);
+        let skipped = self.clip.map_or(StageTime::ZERO, |clip| clip.skipped);
+        let first = whole.then_some(self.begin + self.once - skipped);
         std::iter::successors(first, next).take_while(|&time| time < self.end).take(most)
     }
 }

@@ -12,6 +12,8 @@ pub struct BarClip {
     pub part: [StageTime; 2],
     /// Factor of the speed; below 0 backwards.
     pub speed: Decimal,
+    /// The duration that is left out at the start of the first repetition.
+    pub skipped: StageTime,
 }
 
 impl BarClip {
@@ -25,7 +27,9 @@ impl BarClip {
         let length = model.takes().get(model.take_called(element.value("take")?)?)?.length();
         let time = |name: &str| script.time(element, name).map(|time| time.min(length));
         let from = time("from").unwrap_or_default();
-        Some(Self { part: [from, time("to").unwrap_or(length).max(from)], speed: script.speed(action) })
+        let (to, speed) = (time("to").unwrap_or(length).max(from), script.speed(action));
+        let skipped = script.skipped(action, (to - from).over(speed));
+        Some(Self { part: [from, to], speed, skipped })
     }
 }
 
@@ -33,15 +37,21 @@ impl SceneBar {
     /// Returns the times in the scene of the moment that is `at` after the start of the take, once for each repetition, at most `most` of them;
     /// none where the bar does not play that moment.
     pub fn occurrences(&self, at: StageTime, most: usize) -> impl Iterator<Item = StageTime> + use<> {
+        let begin = self.begin;
+        self.moments(at).skip_while(move |&time| time < begin).take(most)
+    }
+
+    /// Returns the times of a moment of the take in all repetitions, also of one in the part that is left out.
+    fn moments(&self, at: StageTime) -> impl Iterator<Item = StageTime> + use<> {
         let (begin, end, once) = (self.begin, self.end, self.once);
         let clip = self.clip.filter(|clip| (clip.part[0]..=clip.part[1]).contains(&at));
         let first = clip.map(|clip| {
             let after = (at - clip.part[0]).over(clip.speed);
             // Backwards the end of the part comes first.
-            begin + if clip.speed.is_negative() { once - after } else { after }
+            begin + (if clip.speed.is_negative() { once - after } else { after }) - clip.skipped
         });
         let next = move |&time: &StageTime| (once > StageTime::ZERO).then(|| time + once);
-        std::iter::successors(first, next).take_while(move |&time| time <= end).take(most)
+        std::iter::successors(first, next).take_while(move |&time| time <= end)
     }
 
     /// Returns the parts of the scene in which a part of the take is played that is `from` to `to` after its start, at most `most` of them.
@@ -50,14 +60,15 @@ impl SceneBar {
         [from, to]: [StageTime; 2],
         most: usize,
     ) -> impl Iterator<Item = [StageTime; 2]> + use<> {
-        let (end, clip) = (self.end, self.clip);
+        let (begin, end, clip) = (self.begin, self.end, self.clip);
         let inside =
             clip.map(|clip| [from.max(clip.part[0]), to.min(clip.part[1])]).filter(|[from, to]| from < to);
         let is_backwards = clip.is_some_and(|clip| clip.speed.is_negative());
         let length = clip.zip(inside).map(|(clip, [from, to])| (to - from).over(clip.speed));
         let first = inside.map(|[from, to]| if is_backwards { to } else { from });
-        let starts = first.map(|first| self.occurrences(first, most)).into_iter().flatten();
+        let starts = first.map(|first| self.moments(first)).into_iter().flatten();
         let length = length.unwrap_or_default();
-        starts.filter(move |&start| start < end).map(move |start| [start, (start + length).min(end)])
+        let parts = starts.map(move |start| [start.max(begin), (start + length).min(end)]);
+        parts.filter(|[from, to]| from < to).take(most)
     }
 }

@@ -157,6 +157,8 @@ impl<'a> PlanBuilder<'a> {
             speed: Decimal::ONE,
             repeat: StageRepeat::Fill,
             once: length,
+            skipped: StageTime::ZERO,
+            start: StageTime::ZERO,
         };
         let clock = if has_stride { TakeClock::Path } else { TakeClock::Own(own) };
         let span = self.binder.span(action, [times.begin, times.stop], false);

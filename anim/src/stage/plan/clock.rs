@@ -18,6 +18,21 @@ pub(super) struct PlayClock {
     pub(super) repeat: StageRepeat,
     /// Duration of one repetition.
     pub(super) once: StageTime,
+    /// The part of the first repetition that is left out at its start: its duration in the scene.
+    pub(super) skipped: StageTime,
+    /// The same in the take.
+    pub(super) start: StageTime,
+}
+
+/// The progress of an action in its take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::stage) struct PlayMoment {
+    /// Number of completed repetitions; one of which the start is left out counts as whole.
+    pub(in crate::stage) loops: u64,
+    /// The time in the take, after its start.
+    pub(in crate::stage) time: StageTime,
+    /// Whether all repetitions are over, so that it holds the end of the last one.
+    pub(in crate::stage) is_over: bool,
 }
 
 impl PlayClock {
@@ -30,13 +45,12 @@ impl PlayClock {
         if length <= 0 {
             return (0, StageTime::ZERO);
         }
-        let (played, is_over) = match self.repeat {
-            StageRepeat::Times(times) if after >= self.once.times(times) => {
-                (StageTime::from_ticks(length).times(times), true)
-            }
+        let is_over = self.is_over(after);
+        let played = match self.repeat {
+            StageRepeat::Times(times) if is_over => StageTime::from_ticks(length).times(times),
             StageRepeat::Times(_) | StageRepeat::Fill => {
                 let played = after.times(self.speed);
-                (if played < StageTime::ZERO { -played } else { played }, false)
+                self.start + if played < StageTime::ZERO { -played } else { played }
             }
         };
         let (loops, rest) = (played.ticks() / length, played.ticks() % length);
@@ -47,10 +61,28 @@ impl PlayClock {
         (loops as u64, StageTime::from_ticks(rest))
     }
 
+    /// Returns whether all repetitions are over `after` the start of the action.
+    fn is_over(&self, after: StageTime) -> bool {
+        match self.repeat {
+            StageRepeat::Times(times) => after >= self.once.times(times) - self.skipped,
+            StageRepeat::Fill => false,
+        }
+    }
+
+    /// Returns the time in the take, after its start, of one after the start of a repetition there.
+    fn in_take(&self, played: StageTime) -> StageTime {
+        if self.speed.is_negative() { self.part[1] - played } else { self.part[0] + played }
+    }
+
     /// Returns the time in the take, after its start.
     pub(super) fn time(&self, after: StageTime) -> StageTime {
-        let (_, rest) = self.split(after);
-        if self.speed.is_negative() { self.part[1] - rest } else { self.part[0] + rest }
+        self.in_take(self.split(after).1)
+    }
+
+    /// Returns where in the take the action is.
+    pub(super) fn moment(&self, after: StageTime) -> PlayMoment {
+        let (loops, rest) = self.split(after);
+        PlayMoment { loops, time: self.in_take(rest), is_over: self.is_over(after) }
     }
 
     /// Returns how far the take has moved the role, in its own space at the start and in lengths of the model.
@@ -58,10 +90,13 @@ impl PlayClock {
         let Some(motion) = &take.motion else { return Placement::default() };
         let (loops, rest) = self.split(after);
         let [first, last] = if self.speed.is_negative() { [self.part[1], self.part[0]] } else { self.part };
-        let now = if self.speed.is_negative() { first - rest } else { first + rest };
         let between =
             |to: StageTime| placement_of(motion.delta(take.clock(first), take.clock(to), PlayMode::Clamp));
-        between(last).repeated(loops).then(&between(now))
+        let moved = between(last).repeated(loops).then(&between(self.in_take(rest)));
+        match self.start > StageTime::ZERO {
+            true => between(self.in_take(self.start)).inverse().then(&moved),
+            false => moved,
+        }
     }
 }
 

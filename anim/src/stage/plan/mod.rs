@@ -44,11 +44,13 @@ use super::time::{StageRate, StageTime};
 use crate::data::Transform;
 use crate::fast::simd::SimdLevel;
 use build::{PlanBuilder, holding_order};
+pub(in crate::stage) use clock::PlayMoment;
 use cues::ShotCue;
 use fade::ActiveSpan;
 use glam::{DVec3, Vec3};
 use holds::HoldKind;
 use needed::NeededThings;
+use poses::TakeClock;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -285,6 +287,21 @@ impl StagePlan {
         let decides = |span: &ActiveSpan| !(span.is_released && span.stop <= time);
         let cue = begun.iter().rfind(|cue| decides(&cue.span)).or(begun.last())?;
         Some((cue.span.action, poses::take_time(cue, &thing.places, time)))
+    }
+
+    /// Returns where in its take an action of a thing is at `time`; `None` for an action that plays none by its own clock, and while the model is missing.
+    pub(in crate::stage) fn play_moment(
+        &self,
+        thing: usize,
+        action: usize,
+        time: StageTime,
+    ) -> Option<PlayMoment> {
+        let lanes = &self.things.get(thing)?.poses;
+        let cue = lanes.iter().flat_map(|lane| &lane.cues).find(|cue| cue.span.action == action)?;
+        match &cue.clock {
+            TakeClock::Own(clock) => Some(clock.moment(time - cue.span.begin)),
+            TakeClock::Path => None,
+        }
     }
 
     /// Returns the length of the way on which an action leads a thing, meters; `None` for an action that leads it nowhere.

@@ -198,7 +198,13 @@ impl MotionPlanner<'_, '_> {
         let from = time("from").unwrap_or_default();
         let to = time("to").unwrap_or(length).max(from);
         let (speed, repeat) = (script.speed(action), script.actions()[action].repeat);
-        Some(PlayClock { part: [from, to], speed, repeat, once: (to - from).over(speed) })
+        let once = (to - from).over(speed);
+        let start = time("start").map_or(StageTime::ZERO, |start| {
+            let start = start.max(from).min(to);
+            if speed.is_negative() { to - start } else { start - from }
+        });
+        let skipped = script.skipped(action, once);
+        Some(PlayClock { part: [from, to], speed, repeat, once, skipped, start })
     }
 
     /// Returns the places of all things, and the lengths that ways to a place have by them.

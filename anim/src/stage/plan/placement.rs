@@ -28,6 +28,12 @@ impl Placement {
         }
     }
 
+    /// Returns the movement that leads back.
+    pub(in crate::stage) fn inverse(&self) -> Self {
+        let back = Self { position: DVec3::ZERO, facing: -self.facing };
+        Self { position: -(back.rotation() * self.position), ..back }
+    }
+
     /// Returns the movement `times` times one after the other, by squaring.
     pub(in crate::stage) fn repeated(&self, times: u64) -> Self {
         let (mut square, mut left, mut product) = (*self, times, Self::default());

@@ -141,7 +141,8 @@ impl<'a> Resolver<'a> {
             StageRepeat::Times(times) => times,
             StageRepeat::Fill => Decimal::ONE,
         };
-        begin + self.once(index).times(times)
+        let once = self.once(index);
+        begin + once.times(times) - self.script.skipped(index, once)
     }
 
     fn passive_node(&self, index: usize) -> TimeNode {

@@ -44,8 +44,25 @@ impl StageScript {
         parts.filter_map(|part| Some((part.value("name")?, self.time(part, "time")?))).collect()
     }
 
-    /// Returns the time from the start of a play to a time in its take, where one repetition takes `once`.
+    /// Returns the time from the start of a play to a time in its take, where one repetition takes `once`: in the second repetition if the first one begins
+    /// after that.
     pub(in crate::stage) fn after_start(&self, play: usize, time: StageTime, once: StageTime) -> StageTime {
+        let (after, skipped) = (self.in_repetition(play, time, once), self.skipped(play, once));
+        let is_left_out = (StageTime::ZERO..skipped).contains(&after);
+        if is_left_out { after + once - skipped } else { after - skipped }
+    }
+
+    /// Returns how much of the first repetition of a play is left out at its start, by the attribute `start`. One repetition takes `once`.
+    pub(in crate::stage) fn skipped(&self, play: usize, once: StageTime) -> StageTime {
+        let element = self.element(play);
+        let start = element.attribute("start").and_then(|_| self.time(element, "start"));
+        start.map_or(StageTime::ZERO, |start| {
+            self.in_repetition(play, start, once).max(StageTime::ZERO).min(once)
+        })
+    }
+
+    /// Returns the time from the start of a repetition of a play to a time in its take, if one repetition takes `once`.
+    fn in_repetition(&self, play: usize, time: StageTime, once: StageTime) -> StageTime {
         let (from, speed) = (self.time(self.element(play), "from").unwrap_or_default(), self.speed(play));
         let after = (time - from).over(speed);
         if speed.is_negative() { once - after } else { after }

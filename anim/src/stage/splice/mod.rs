@@ -17,6 +17,7 @@
 
 mod attribute;
 mod element;
+mod half;
 mod insert;
 mod layout;
 mod names;
@@ -24,9 +25,10 @@ mod tag;
 
 pub use attribute::{remove_attribute, set_attribute};
 pub use element::{AttachedComments, delete, duplicate, move_all_after, move_to};
+pub(in crate::stage) use half::insert_half;
 pub use insert::{ElementPlace, NewElement, insert, insert_text, written_element};
-pub(in crate::stage) use names::named;
 pub use names::{RenameRefusal, elements_that_name, rename, rename_references, unique_id};
+pub(in crate::stage) use names::{named, unique_among};
 
 use super::script::SHARED;
 use std::ops::Range;

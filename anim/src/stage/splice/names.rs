@@ -8,10 +8,11 @@ use std::fmt;
 
 /// Returns a name that no element has: `base`, without what cannot be in a name, and with a number where it is taken.
 pub fn unique_id(tree: &ScriptTree, base: &str) -> String {
-    unique(base, |name| tree.elements().iter().any(|element| element.value("id") == Some(name)))
+    unique_among(base, |name| tree.elements().iter().any(|element| element.value("id") == Some(name)))
 }
 
-fn unique(base: &str, is_taken: impl Fn(&str) -> bool) -> String {
+/// Returns a name that is not taken: `base`, without what cannot be in a name, and with a number if it is.
+pub(in crate::stage) fn unique_among(base: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() || letter == '_' { letter } else { '-' };
     let base: String = base.chars().map(plain).collect();
     let parts: Vec<&str> = base.split('-').filter(|part| !part.is_empty()).collect();
@@ -129,7 +130,7 @@ pub(super) fn with_new_ids(tree: &ScriptTree, element: usize) -> Option<String> 
         tree.elements().iter().filter_map(|element| element.value("id")).map(str::to_owned).collect();
     let mut names = HashMap::new();
     for id in inside().filter_map(|element| element.value("id")) {
-        let new = unique(id, |name| taken.iter().any(|taken| taken == name));
+        let new = unique_among(id, |name| taken.iter().any(|taken| taken == name));
         taken.push(new.clone());
         names.insert(id, new);
     }

@@ -67,6 +67,12 @@ pub(super) const PLAY: ElementRow = ElementRow {
                 required("take", TEXT, "Take of the role's model."),
                 optional("from", TIME, "", "Start in the take; without it, the start of the take."),
                 optional("to", TIME, "", "End in the take; without it, the end of the take."),
+                optional(
+                    "start",
+                    TIME,
+                    "",
+                    "Time in the take at which the first repetition begins; without it, where the others begin.",
+                ),
                 optional("speed", SPEED, "1", "Factor of the speed."),
                 optional(
                     "layer",

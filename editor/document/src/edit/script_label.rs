@@ -61,6 +61,7 @@ script_labels! {
     AddChange = "Add change",
     AddRun = "Add run",
     AddWait = "Add wait",
+    Split = "Split",
     Duplicate = "Duplicate",
     Paste = "Paste",
     Delete = "Delete",

@@ -48,6 +48,7 @@ mod scene_path_points;
 mod scene_picks;
 pub(super) mod scene_points;
 mod scene_probe;
+pub(super) mod scene_split;
 pub(super) mod scene_text;
 pub(super) mod scene_time;
 pub(super) mod scene_view;

@@ -32,8 +32,8 @@ pub struct SceneEditing {
     renaming: Option<Box<str>>,
     /// The things that are selected as soon as the script has them.
     awaited: Vec<Box<str>>,
-    /// The text whose new actions are selected as soon as it is shown.
-    awaited_actions: Option<Arc<str>>,
+    /// The text whose new actions are selected as soon as it is shown, or these actions of it.
+    awaited_actions: Option<(Arc<str>, Option<Vec<usize>>)>,
     ripple: bool,
     /// The part of time that the timeline shows; `None` for all.
     window: Option<TimeWindow>,
@@ -313,7 +313,12 @@ impl SceneEditing {
 
     /// Selects the actions that this text has more than the one that is shown, as soon as it is shown.
     pub(in crate::panels) fn await_actions(&mut self, text: Arc<str>) {
-        self.awaited_actions = Some(text);
+        self.awaited_actions = Some((text, None));
+    }
+
+    /// Selects these actions of this text, the second halves of others, as soon as it is shown.
+    pub(in crate::panels) fn await_halves(&mut self, text: Arc<str>, halves: Vec<usize>) {
+        self.awaited_actions = Some((text, Some(halves)));
     }
 
     pub(in crate::panels) fn set_ripple(&mut self, ripple: bool) {
@@ -360,8 +365,9 @@ impl SceneEditing {
         }
         let mut added = Vec::new();
         if let Some((old, _)) = self.shown.as_ref().filter(|(old, _)| !Arc::ptr_eq(old, &script)) {
-            if self.awaited_actions.take_if(|text| **text == **script.tree().text()).is_some() {
-                added = new_actions(old, &script);
+            let awaited = self.awaited_actions.take_if(|(text, _)| **text == **script.tree().text());
+            if let Some((_, actions)) = awaited {
+                added = actions.unwrap_or_else(|| new_actions(old, &script));
             }
             self.actions.follow(old, &script);
             renamed = RenamedThings::between(old, &script);

@@ -19,6 +19,8 @@ pub(super) const TABLE: PresetKeys = &[
     (Id::DuplicateKeys, &[key(CTRL, Key::D)]),
     (Id::DeleteKeys, &[key(NONE, Key::Delete), key(NONE, Key::Backspace)]),
     (Id::RenameTake, &[key(NONE, Key::F2)]),
+    // The timeline of Unity.
+    (Id::SplitActions, &[key(NONE, Key::S), key(NONE, Key::Y)]),
     // Time.
     (Id::PreviousFrame, &[key(NONE, Key::Comma), key(NONE, Key::ArrowLeft)]),
     (Id::NextFrame, &[key(NONE, Key::Period), key(NONE, Key::ArrowRight)]),

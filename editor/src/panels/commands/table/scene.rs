@@ -3,7 +3,7 @@
 use super::*;
 use crate::panels::actions::{
     keys, scene, scene_attach, scene_clipboard, scene_clips, scene_focus, scene_ground, scene_lines,
-    scene_text, scene_time,
+    scene_split, scene_text, scene_time,
 };
 use crate::panels::file_choice::FileChoice;
 use crate::panels::scene::NewThing;
@@ -45,6 +45,7 @@ commands! {
     ClipLater => When::Clip, "Move action a frame later", [], "Moves the selected actions one frame forward", |w| scene_clips::nudge(w, 1), repeats;
     ClipStartToPlayhead => When::Clip, "Trim start to playhead", [], "Lets the selected action start at the playhead, with the rest of it where it is", scene_clips::start_to_playhead;
     ClipEndToPlayhead => When::Clip, "Trim end to playhead", [], "Lets the selected action end at the playhead", scene_clips::end_to_playhead;
+    SplitActions => When::Clip, "Split action at playhead", [key(NONE, Key::Y)], "Splits the selected actions at the playhead; both halves together play what the whole played (cut, razor)", scene_split::split;
     PreviousAction => When::Scene, "Select previous action", [], "Selects the action before the selected one in the script", |w| { scene_clips::step(w, false); None };
     NextAction => When::Scene, "Select next action", [], "Selects the action after the selected one in the script", |w| { scene_clips::step(w, true); None };
     SelectAllActions => When::Scene, "Select all actions", [], "Selects every action in the timeline", |w| { scene_clipboard::select_all(w); None };

@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, action: usize, sheet: &SceneSheet<'_>, requests:
         requests.push(Request::Scene(SceneRequest::Find(missing)));
         ui.close();
     }
-    for id in [Id::ClipToPlayhead, Id::ClipStartToPlayhead, Id::ClipEndToPlayhead] {
+    for id in [Id::ClipToPlayhead, Id::ClipStartToPlayhead, Id::ClipEndToPlayhead, Id::SplitActions] {
         item(ui, sheet.context, id, false, requests);
     }
     ui.separator();
