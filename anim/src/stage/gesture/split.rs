@@ -263,9 +263,12 @@ fn check_times(
         let Some(origin) = origins.get(action).copied().flatten() else { continue };
         let was = scene.times(origin);
         let is_origin = |other: usize| origins.get(other).copied().flatten() == Some(origin);
-        let (has_first, has_second) = (action > 0 && is_origin(action - 1), is_origin(action + 1));
-        let keeps_begin = has_first || is_near(times.begin, was.begin);
-        let keeps_end = has_second || (is_near(times.end, was.end) && is_near(times.stop, was.stop));
+        // A second half begins where the first one ends.
+        let first = action.checked_sub(1).filter(|&first| is_origin(first));
+        let begin = first.map_or(was.begin, |first| schedule.times()[first].end);
+        let keeps_begin = is_near(times.begin, begin);
+        let keeps_end =
+            is_origin(action + 1) || (is_near(times.end, was.end) && is_near(times.stop, was.stop));
         if !(keeps_begin && keeps_end) {
             let title = scene.script.tree().title(scene.script.actions()[origin].element);
             return refused(format!("{title} would begin or end at another time"));
