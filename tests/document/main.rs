@@ -27,6 +27,7 @@ mod layers;
 mod limits;
 mod many_bones;
 mod merged_keys;
+mod new_folders;
 mod offset_keys;
 mod old_defaults;
 mod old_journals;

@@ -182,6 +182,41 @@ fn the_file_question_stays_until_a_path_is_given() {
     assert_eq!(bench.state.read().question(), None);
 }
 
+/// Returns the effects apart from looks at the folder of a path.
+fn answers(bench: &Bench) -> Vec<Effect> {
+    let is_look = |effect: &&Effect| {
+        matches!(effect, Effect::File(FileAction::Send(DocumentMessage::LookAtFolder(_))))
+    };
+    bench.effects.iter().filter(|effect| !is_look(effect)).cloned().collect()
+}
+
+#[test]
+fn the_question_where_to_save_tells_which_folders_the_save_makes() {
+    let bench = bench(PlaceQuestion { copy: false, then: None }.into());
+    let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+    harness.run_steps(4);
+    for (folder, created, hint) in [
+        ("/models/animals", Some("animals"), "A new folder animals will be made"),
+        ("/models/a/b", Some("a/b"), "New folders a/b will be made"),
+        ("/models", None, "will be made"),
+    ] {
+        harness.get_by_label("Path to save at").focus();
+        harness.run_steps(1);
+        harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+        harness.event(egui::Event::Text(format!("{folder}/Fox.glb")));
+        harness.run_steps(3);
+        assert!(harness.query_by_label_contains("will be made").is_none(), "it is not known yet");
+        let looks = |effect: &Effect| {
+            let wanted = DocumentMessage::LookAtFolder(folder.into());
+            *effect == Effect::File(FileAction::Send(wanted))
+        };
+        assert_eq!(harness.state().effects.iter().filter(|effect| looks(effect)).count(), 1, "asked once");
+        harness.state_mut().state.set_new_folders(folder.into(), created.map(Into::into));
+        harness.run_steps(2);
+        assert_eq!(harness.query_by_label_contains(hint).is_some(), created.is_some(), "{folder}");
+    }
+}
+
 #[test]
 fn every_question_fits_every_window_and_escape_closes_it_without_an_action() {
     for (name, question) in questions() {
@@ -196,7 +231,8 @@ fn every_question_fits_every_window_and_escape_closes_it_without_an_action() {
             let later = |effect: &Effect| {
                 matches!(effect, Effect::File(FileAction::Send(DocumentMessage::Decide(_, Decision::Later))))
             };
-            assert!(bench.effects.iter().all(later), "{name}: {:?}", bench.effects);
+            let effects = answers(bench);
+            assert!(effects.iter().all(later), "{name}: {effects:?}");
         }
     }
 }
@@ -209,7 +245,7 @@ fn enter_chooses_the_default_button() {
         harness.run_steps(4);
         harness.key_press(egui::Key::Enter);
         harness.run_steps(4);
-        let effects = &harness.state().effects;
+        let effects = answers(harness.state());
         let expected = match name {
             "unsaved" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(Some(Then::Quit))))),
             "changed_save" => Some(FileAction::Where { copy: false, then: None }),
@@ -221,7 +257,7 @@ fn enter_chooses_the_default_button() {
             "plan" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(None)))),
             "exists" | "plan_long" | "unfit" | "outdated" | "changed_models" => None,
             "copy" => {
-                assert_eq!(*effects, [Effect::CopyFiles(wanted(&["knight.gltf"]))]);
+                assert_eq!(effects, [Effect::CopyFiles(wanted(&["knight.gltf"]))]);
                 continue;
             }
             "where_copy" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder {
@@ -232,7 +268,7 @@ fn enter_chooses_the_default_button() {
             _ => continue,
         };
         let expected: Vec<Effect> = expected.map(Effect::File).into_iter().collect();
-        assert_eq!(*effects, expected, "{name}");
+        assert_eq!(effects, expected, "{name}");
         assert!(harness.state().state.read().question().is_none(), "{name}");
     }
 }

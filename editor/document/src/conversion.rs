@@ -2,6 +2,7 @@
 
 use super::bone_map::BoneMap;
 use super::import::{formats, written_format, written_formats};
+use super::new_folders::ensure_folder;
 use super::source::{LoadError, file_name};
 use super::{Cancel, Folder, make_folder, read_file};
 use dragonfly_anim::bake::baked;
@@ -270,10 +271,8 @@ impl PreparedConversion {
 /// The path and the reason.
 pub fn write_files(output: &Path, plan: &SavePlan) -> Result<(), ConversionError> {
     let folder = folder_of(output);
-    if !folder.is_dir() {
-        return Err(ConversionError::Write(format!("{}: its folder does not exist", output.display())));
-    }
     let wrong = |reason: String| ConversionError::Write(reason);
+    ensure_folder(output).map_err(wrong)?;
     let Some((main, beside)) = plan.files.split_last() else { return Ok(()) };
     for file in beside {
         let path = folder.join(&file.name);

@@ -1,8 +1,9 @@
 //! Files next to a document that it needs, and that a save into another folder copies there.
 
 use super::beside::BesideStamps;
-use super::editable::{is_same_path, make_folder};
+use super::editable::is_same_path;
 use super::folder::{FileAccessError, open_file};
+use super::new_folders::make_folder;
 use super::{Cancel, Folder};
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_store::{ExpectedFile, FileStamp, RealFiles, SaveOptions, SaveOutcome, Versions, save};

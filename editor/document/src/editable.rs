@@ -6,6 +6,7 @@ use super::copied_files::EarlierCopies;
 use super::edited_content::{EditedContent, plan_of_texts};
 use super::images::ImageSurvey;
 use super::import::ImportDoor;
+use super::new_folders::ensure_folder;
 use super::source::{LoadError, Source, file_name};
 use super::text_source::{ReadTexts, is_scene, read_texts};
 use super::unused;
@@ -19,7 +20,7 @@ use dragonfly_anim::format::{
     SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{FileStamp, FileState, RealFiles, Vfs, folder_of};
+use dragonfly_store::{FileStamp, FileState, RealFiles, Vfs};
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -246,6 +247,8 @@ impl Editable {
     ) -> Result<Vec<PathBuf>, String> {
         let own = self.is_own(output);
         let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
+        // A mistyped name makes no folder.
+        ensure_folder(output)?;
         let cancel = Cancel::default();
         let files = self.files(plan, output, &cancel, &|_| {})?;
         let is_elsewhere = files.is_elsewhere;
@@ -337,14 +340,4 @@ pub(super) fn opened(
 /// Returns whether two paths lead to the same file or folder. It need not exist where they are equal.
 pub(super) fn is_same_path(a: &Path, b: &Path) -> bool {
     a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
-}
-
-/// Creates the folder of `path` if it does not exist, and flushes its name to the disk.
-pub fn make_folder(path: &Path) -> Result<(), String> {
-    let folder = folder_of(path);
-    let missing: Vec<&Path> =
-        folder.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()).collect();
-    let made = std::fs::create_dir_all(folder)
-        .and_then(|()| missing.iter().try_for_each(|made| RealFiles.sync_folder(folder_of(made))));
-    made.map_err(|error| format!("{}: the folder cannot be created: {error}", folder.display()))
 }

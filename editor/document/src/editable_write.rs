@@ -3,8 +3,9 @@
 use super::adapter::{ModelAdapter, TextFile, TextFiles};
 use super::beside::{BesideStamps, ReadOnce};
 use super::copied_files::other_file;
-use super::editable::{Editable, is_same_path, make_folder, opened, places};
+use super::editable::{Editable, is_same_path, opened, places};
 use super::edited_content::EditedContent;
+use super::new_folders::make_folder;
 use super::save_files::{SaveFiles, WrittenFile};
 use super::source::file_name;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, UnsavedFile, Writing, save_file};

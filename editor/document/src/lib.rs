@@ -54,6 +54,7 @@ mod loading_model;
 mod merged_texts;
 mod message;
 mod needed_files;
+mod new_folders;
 mod offer;
 mod open;
 mod open_scene;
@@ -116,7 +117,7 @@ pub use conversion::{
     export, export_presets, places_textures, prepare_conversion, write_files, written_extensions,
 };
 pub use copied_files::CopiedFiles;
-pub use editable::{Editable, make_folder};
+pub use editable::Editable;
 pub use export::{ExportContent, ExportOrder, ExportReport, ExportedFile, export_files};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{FileAccessError, Folder, read_file};
@@ -127,6 +128,7 @@ pub use import::{formats, written_format, written_formats};
 pub use line_names::paths_of_renamed_line;
 pub use load::{Loader, OpenedModel, load_model, open_model};
 pub use message::{DocumentMessage, DocumentReply};
+pub use new_folders::{ensure_folder, make_folder};
 pub use offer::Offer;
 pub use open::Change;
 pub use outdated_edits::{OutdatedEdits, OutdatedEditsChoice};

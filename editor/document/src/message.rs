@@ -59,6 +59,8 @@ pub enum DocumentMessage {
     SoundsRead(Vec<(SoundSource, Option<f64>)>),
     /// Checks whether another program changed the file.
     LookAtFile,
+    /// Finds out which folders a save into this folder would create. The reply is [`DocumentReply::NewFolders`].
+    LookAtFolder(PathBuf),
     /// Searches for unsaved work of earlier sessions, and replies also if there is none.
     Search,
     /// Reads another model, whose takes are wanted for the open one. The reply is [`DocumentReply::SourceRead`].
@@ -128,6 +130,13 @@ pub enum DocumentReply {
     MayQuit,
     /// Another program changed or deleted the file.
     FileChanged(FileState),
+    /// The folders that a save into a folder creates, as a path in the one that exists; `None` where it creates none or fails.
+    NewFolders {
+        /// The folder.
+        folder: PathBuf,
+        /// The folders that are created.
+        created: Option<PathBuf>,
+    },
     /// Unsaved work of an earlier session can be restored.
     Offers(Vec<Offer>),
     /// The file at this path is not the one that the unsaved work belongs to.

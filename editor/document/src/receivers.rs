@@ -5,7 +5,8 @@
 
 use super::Change;
 use super::job::JobNews;
-use super::message::DocumentMessage;
+use super::message::{DocumentMessage, DocumentReply};
+use super::new_folders::new_folders;
 use super::owner::Document;
 use dragonfly_runtime::{Context, Receiver, Worker};
 use std::cell::RefCell;
@@ -47,6 +48,10 @@ impl Document {
             DocumentMessage::ShowScript(name) => self.show_script(&name),
             DocumentMessage::SoundsRead(lengths) => self.sounds_read(&lengths),
             DocumentMessage::LookAtFile => self.look_at_file(),
+            DocumentMessage::LookAtFolder(folder) => {
+                let created = new_folders(&folder);
+                self.reply(DocumentReply::NewFolders { folder, created });
+            }
             DocumentMessage::Search => {
                 self.searched = true;
                 self.search();

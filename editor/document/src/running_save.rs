@@ -53,7 +53,7 @@ enum Waits {
 
 fn waits(message: &DocumentMessage) -> Waits {
     match message {
-        DocumentMessage::CancelLoading => Waits::Never,
+        DocumentMessage::CancelLoading | DocumentMessage::LookAtFolder(_) => Waits::Never,
         DocumentMessage::Plan(_)
         | DocumentMessage::ShowScript(_)
         | DocumentMessage::SoundsRead(_)

@@ -37,7 +37,7 @@ impl Editable {
 
     /// Returns the files that saving as `output` writes. What the document needs is copied along to another folder: the files next to a
     /// model; the texts, models and sounds of a scene. Models of a scene may be read to know which files they need; `progress` is called with
-    /// the fraction of them that was read.
+    /// the fraction of them that was read. The folder of `output` need not exist.
     ///
     /// # Errors
     ///
@@ -51,10 +51,6 @@ impl Editable {
     ) -> Result<SaveFiles, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(SaveFiles::default()) };
         let folder = folder_of(output);
-        // A mistyped name makes no folder. Only folders of the files next to the model are created.
-        if !folder.is_dir() {
-            return Err(format!("{}: its folder does not exist", output.display()));
-        }
         let written = |file: &OutputFile| (folder.join(&file.name), file.bytes.clone());
         // Standard output and devices are in no folder that could get the other files.
         let is_device = output == Path::new("-") || output.metadata().is_ok_and(|data| !data.is_file());

@@ -10,13 +10,14 @@ use super::copied_files::EarlierCopies;
 use super::editable::Editable;
 use super::fault::{FaultInjection, FaultPoint};
 use super::history::Edited;
+use super::new_folders::{NewFolders, ensure_folder, missing_folders};
 use super::recorded::{EditsOrigin, Snapshot};
 use super::save_files::SaveFiles;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use dragonfly_anim::data::Take;
 use dragonfly_anim::format::ChangeReport;
 use dragonfly_store::{
-    Autosave, FileContents, Journal, JournalError, RealFiles, Successor, SuccessorJournal,
+    Autosave, FileContents, Journal, JournalError, RealFiles, Successor, SuccessorJournal, folder_of,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -45,6 +46,8 @@ pub(super) struct SaveInput {
     /// Files that are replaced whatever they contain.
     pub(super) replaces: Vec<PathBuf>,
     pub(super) target: SaveTarget,
+    /// Whether folders of `output` that do not exist are created: the user typed the path.
+    pub(super) creates_folders: bool,
     pub(super) autosave: Option<Autosave>,
     /// The successor of the document's journal.
     pub(super) successor: Option<Successor>,
@@ -100,6 +103,11 @@ pub(super) fn prepare(
 ) -> Result<PreparedSave, String> {
     input.faults.reach(FaultPoint::PrepareSave);
     let plan = input.editable.plan(input.edited.adapter()).map_err(|error| error.to_string())?;
+    match input.creates_folders {
+        true => missing_folders(folder_of(&input.output)).map(drop)?,
+        // A mistyped name makes no folder.
+        false => ensure_folder(&input.output)?,
+    }
     let files = input.editable.files(&plan, &input.output, cancel, progress)?;
     let bytes = files.written.last().map_or(&[][..], |(_, bytes)| bytes);
     let is_main_written = !input.editable.keeps_main(&input.output, bytes, input.overwrite);
@@ -198,9 +206,21 @@ impl PreparedSave {
             is_elsewhere,
             copied: &copied,
         };
+        let folders = match input.creates_folders {
+            true => NewFolders::create(folder_of(&input.output)),
+            false => Ok(NewFolders::default()),
+        };
+        let folders = match folders {
+            Ok(folders) => folders,
+            Err(reason) => {
+                let copies = input.editable.copies.clone();
+                return Err(FailedWrite { reason: reason.into(), partly: None, copies });
+            }
+        };
         let saved = match input.editable.write(input.edited.adapter(), files, how, cancel) {
             Ok(saved) => saved,
             Err(reason) => {
+                folders.remove();
                 let copies = input.editable.copies.clone();
                 let partly = (target == SaveTarget::Own).then(|| Box::new(input.editable));
                 return Err(FailedWrite { reason, partly, copies });

@@ -191,6 +191,7 @@ impl Open {
         let mut input =
             self.begin_saving(output, target, overwrite, autosave, faults, now).map_err(NotSaved::Failed)?;
         input.replaces.clone_from(&order.replaces);
+        input.creates_folders = matches!(order.to, SaveTo::As(_) | SaveTo::Copy(_));
         Ok(input)
     }
 
@@ -228,6 +229,7 @@ impl Open {
             overwrite,
             replaces: Vec::new(),
             target,
+            creates_folders: false,
             autosave: autosave.cloned(),
             // The file will no longer have the takes with which the history starts.
             successor: successor.filter(|_| target == SaveTarget::Own),
@@ -343,7 +345,9 @@ pub fn check_extension(path: &Path, ending: &str) -> Result<(), String> {
 
 /// Returns `path` with the extension of the format, which is added where it is missing.
 fn with_ending(path: &Path, ending: &str) -> Result<PathBuf, String> {
-    if path.file_name().is_none() {
+    // One with a separator at its end is a folder.
+    let is_folder = path.to_string_lossy().ends_with(std::path::is_separator);
+    if is_folder || path.file_name().is_none() {
         return Err(format!("{}: this is not a file name", path.display()));
     }
     check_extension(path, ending)?;
@@ -369,6 +373,6 @@ mod tests {
         assert_eq!(ending("a/fox.GLB"), Ok("a/fox.GLB".to_owned()));
         assert_eq!(ending("a/fox.v2"), Ok("a/fox.v2.glb".to_owned()));
         assert!(ending("a/fox.gltf").is_err_and(|reason| reason.contains("stays .glb")));
-        assert!(ending("/").is_err());
+        assert!(ending("/").is_err() && ending("a/").is_err());
     }
 }

@@ -75,6 +75,7 @@ pub(super) fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::FileChanged(file) => {
             state.ask(ChangedQuestion { file, path: None, order: None }.into())
         }
+        DocumentReply::NewFolders { folder, created } => state.set_new_folders(folder, created),
         DocumentReply::Offers(offers) => state.ask_to_recover(offers),
         DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
         DocumentReply::NothingToOffer => {

@@ -9,7 +9,8 @@ use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::{EditError, ModelAdapter};
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
 use dragonfly_document::{
-    Cancel, Editable, Rebase, Rebased, SaveFiles, UnfitEdit, check_extension, make_folder, read_file,
+    Cancel, Editable, Rebase, Rebased, SaveFiles, UnfitEdit, check_extension, ensure_folder, make_folder,
+    read_file,
 };
 use serde::Serialize;
 use std::io::Read;
@@ -249,6 +250,8 @@ pub(super) fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Resul
         return Err(Failure::input("-", "the model consists of several files; give -o the path of a file"));
     }
     check_extension(output, &editable.ending()).map_err(Failure::Input)?;
+    // A mistyped name makes no folder. Only folders of the files next to the model are created.
+    ensure_folder(output).map_err(Failure::Input)?;
     let mut written = Vec::new();
     let cancel = Cancel::default();
     let SaveFiles { copied, written: files, .. } =

@@ -49,6 +49,7 @@ pub mod layer_choice;
 pub mod layers;
 pub mod layout;
 mod length_unit;
+mod looked_folder;
 mod loop_dialog;
 mod loop_search;
 pub mod marks;

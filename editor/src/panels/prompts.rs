@@ -4,6 +4,7 @@ pub use super::dialogs::Question;
 pub use super::overlay::Overlay;
 
 use super::dialogs::{FindQuestion, RecoverQuestion};
+use super::looked_folder::LookedFolder;
 use dragonfly_document::{Decision, Offer};
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -20,6 +21,8 @@ pub struct Prompts {
     overlay: Option<Overlay>,
     /// Whether the search field is to get the cursor.
     find: bool,
+    /// The folder that was looked at last, because its path is typed.
+    looked_folder: Option<LookedFolder>,
 }
 
 impl Prompts {
@@ -89,6 +92,16 @@ impl Prompts {
     /// Removes the question where a missing file of the scene is: it was found.
     pub(super) fn close_missing(&mut self) {
         self.questions.retain(|(_, question)| !matches!(question, Question::Missing(_)));
+    }
+
+    /// Returns the folder that was looked at last.
+    pub(super) fn looked_folder(&self) -> Option<&LookedFolder> {
+        self.looked_folder.as_ref()
+    }
+
+    /// Notes the folder that was looked at.
+    pub(super) fn set_looked_folder(&mut self, folder: LookedFolder) {
+        self.looked_folder = Some(folder);
     }
 
     /// Removes the question that was answered.

@@ -143,6 +143,8 @@ pub enum Request {
     FileFound(PathBuf),
     /// Asks for the path of the missing file, which is typed.
     TypeFoundFile,
+    /// Asks which folders a save into this folder would create.
+    LookAtFolder(PathBuf),
     /// Adds a layer with the keys of the take with this index over the take that is shown.
     AddLayerFrom(usize),
     /// Adds this model to the scene as a role.
@@ -250,6 +252,7 @@ impl FileAction {
         match self {
             Self::Send(
                 DocumentMessage::LookAtFile
+                | DocumentMessage::LookAtFolder(_)
                 | DocumentMessage::Search
                 | DocumentMessage::CancelLoading
                 | DocumentMessage::ReadSource(_)

@@ -7,6 +7,7 @@ use super::actions::{
 use super::context::PanelContext;
 use super::dropped_files::WantedFiles;
 use super::export::AnsweredExport;
+use super::looked_folder::LookedFolder;
 use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
 use super::reference::ReferenceTrack;
@@ -240,6 +241,11 @@ impl State {
     /// Asks about unsaved work of an earlier run.
     pub fn ask_to_recover(&mut self, offers: Vec<Offer>) {
         files::ask_to_recover(&mut self.workspace, offers);
+    }
+
+    /// Notes which folders a save into a folder creates, as a path in the one that exists; `None` where it creates none.
+    pub fn set_new_folders(&mut self, folder: PathBuf, created: Option<PathBuf>) {
+        self.workspace.prompts.set_looked_folder(LookedFolder::new(folder, created));
     }
 
     /// Removes the questions about unsaved work whose file was found.

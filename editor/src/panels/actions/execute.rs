@@ -143,6 +143,9 @@ pub(super) fn perform(workspace: &mut Workspace, request: Request) -> Option<Eff
             return scene_files::found(workspace, path);
         }
         Request::TypeFoundFile => scene_files::type_path(workspace),
+        Request::LookAtFolder(folder) => {
+            return Some(Effect::File(FileAction::Send(DocumentMessage::LookAtFolder(folder))));
+        }
         Request::NewScene(path) => return Some(Effect::NewScene(path)),
         Request::DemoScene(folder) => return Some(Effect::DemoScene(folder)),
     }

@@ -1,10 +1,12 @@
 //! A question as it is drawn: its sentences, and its row of buttons.
 
+use crate::panels::looked_folder::LookedFolder;
 use crate::panels::request::Request;
 use crate::panels::style::{GRID, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_document::View;
+use dragonfly_store::folder_of;
 use egui::{
     Button, CornerRadius, Frame, Key, Margin, Response, RichText, Stroke, TextEdit, TextStyle, Ui, vec2,
 };
@@ -16,6 +18,8 @@ pub(super) struct Ask<'a> {
     pub(super) ui: &'a mut Ui,
     /// The newest view of the document.
     pub(super) view: Option<&'a View>,
+    /// The folder that was looked at last.
+    pub(super) looked_folder: Option<&'a LookedFolder>,
     /// Whether this is its first frame, in which the default button gets the focus.
     pub(super) fresh: bool,
     pub(super) requests: &'a mut Vec<Request>,
@@ -27,6 +31,8 @@ pub(super) struct Ask<'a> {
 pub(super) struct QuestionFields {
     pub(super) path: String,
     pub(super) chosen: usize,
+    /// The folder of the path that is being looked at, or was.
+    pub(super) asked: Option<PathBuf>,
 }
 
 /// The part of a path that is selected when its field is shown.
@@ -107,6 +113,12 @@ impl Ask<'_> {
         cancel: (&str, &str),
         selected: PathPart,
     ) -> Option<PathBuf> {
+        let entered = self.path_field(name, selected);
+        self.path_buttons(confirm, cancel, entered)
+    }
+
+    /// Draws a field for a path, called `name` for screen readers; `selected` is selected at first. Returns whether Enter was pressed in it.
+    pub(super) fn path_field(&mut self, name: &str, selected: PathPart) -> bool {
         let field = TextEdit::singleline(&mut self.fields.path)
             .desired_width(f32::INFINITY)
             .font(TextStyle::Monospace)
@@ -122,15 +134,42 @@ impl Ask<'_> {
                 }
             }
         }
-        let entered = response.lost_focus() && self.ui.input(|input| input.key_pressed(Key::Enter));
+        response.lost_focus() && self.ui.input(|input| input.key_pressed(Key::Enter))
+    }
+
+    /// Draws which folders a save at the typed path creates.
+    pub(super) fn new_folders(&mut self) {
+        let Some(path) = self.typed_path() else { return };
+        let folder = folder_of(&path);
+        if self.fields.asked.as_deref() != Some(folder) {
+            self.fields.asked = Some(folder.to_path_buf());
+            self.requests.push(Request::LookAtFolder(folder.to_path_buf()));
+        } else if let Some(hint) = self.looked_folder.and_then(|looked| looked.hint(folder)) {
+            self.adds(hint);
+        }
+    }
+
+    /// Returns the path that was typed.
+    fn typed_path(&self) -> Option<PathBuf> {
+        let typed = self.fields.path.trim().trim_matches('"');
+        (!typed.is_empty()).then(|| PathBuf::from(typed))
+    }
+
+    /// Draws the buttons `confirm` and `cancel` below a field for a path, each a title and its tooltip. Returns the path once it is confirmed, also
+    /// by Enter in the field; a cancel dismisses the question.
+    pub(super) fn path_buttons(
+        &mut self,
+        confirm: (&str, &str),
+        cancel: (&str, &str),
+        entered: bool,
+    ) -> Option<PathBuf> {
         // The field has the focus, not the default button.
         let fresh = std::mem::replace(&mut self.fresh, false);
         let pressed = self
             .buttons(&[(confirm.0, confirm.1, Tone::First, true), (cancel.0, cancel.1, Tone::Plain, false)]);
         self.fresh = fresh;
-        let typed = self.fields.path.trim().trim_matches('"');
-        if (entered || pressed == Some(true)) && !typed.is_empty() {
-            return Some(PathBuf::from(typed));
+        if let Some(path) = self.typed_path().filter(|_| entered || pressed == Some(true)) {
+            return Some(path);
         }
         if pressed == Some(false) {
             self.requests.push(Request::Dismiss);

@@ -49,9 +49,9 @@ impl QuestionKind for PlaceQuestion {
         ask.ui.set_width(520.0);
         ask.title(if self.copy { "Save a copy" } else { "Save as" });
         let save = ("Save", "Write the file");
-        if let Some(path) =
-            ask.path("Path to save at", save, ("Cancel", "Close without saving"), PathPart::Name)
-        {
+        let entered = ask.path_field("Path to save at", PathPart::Name);
+        ask.new_folders();
+        if let Some(path) = ask.path_buttons(save, ("Cancel", "Close without saving"), entered) {
             let to = if self.copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
             let order = SaveOrder { to, ..SaveOrder::own(self.then.clone()) };
             ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));

@@ -32,7 +32,8 @@ impl Dialogs {
             self.told = false;
             // The keyboard focus arrives with the next frame.
             ui.ctx().request_repaint();
-            self.fields = QuestionFields { path: question.kind().proposal(context.view), chosen: 0 };
+            let path = question.kind().proposal(context.view);
+            self.fields = QuestionFields { path, ..QuestionFields::default() };
         }
         if !fresh && !std::mem::replace(&mut self.told, true) {
             tracing::info!(target: "dragonfly::question", "{}", question.kind().name());
@@ -45,6 +46,7 @@ impl Dialogs {
             question.kind().show(&mut Ask {
                 ui,
                 view: context.view,
+                looked_folder: context.prompts.looked_folder(),
                 fresh,
                 requests,
                 fields: &mut self.fields,
