@@ -1,8 +1,12 @@
 //! Tooltips and values next to the pointer cover neither menus nor what is dragged, and a narrow bar has no overlaps.
 
 use crate::timeline_rig::Animator;
-use crate::workbench::Workbench;
+use crate::workbench::{Window, Workbench};
 use dragonfly::panels::Request;
+use dragonfly::panels::commands::{self, Id};
+use dragonfly::panels::dialogs::UnsavedQuestion;
+use dragonfly::panels::prompts::Overlay;
+use dragonfly_document::Then;
 use egui::{Event, PointerButton, Shape, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -44,6 +48,42 @@ fn the_tooltip_of_the_scale_bar_is_not_shown_while_keys_are_scaled() {
     animator.steps(90);
     assert_eq!(hints(&animator), 0);
     animator.release(grip + vec2(40.0, 0.0));
+}
+
+#[test]
+fn a_tooltip_is_not_over_a_question_or_an_overlay_that_opens_while_the_pointer_rests() {
+    // The history has no step, so that the second button is disabled.
+    for id in [Id::PlayPause, Id::Undo] {
+        for is_question in [true, false] {
+            let mut window = Workbench::full().window();
+            if id == Id::Undo {
+                window.get_by_label("History").click();
+                window.run_steps(20);
+            }
+            let hint = commands::get(id).help;
+            let shown = |window: &Window| window.query_all_by_label_contains(hint).count();
+            let button = window.query_all_by_label(commands::get(id).title).next().expect("a button").rect();
+            window.event(Event::PointerMoved(button.center()));
+            window.run_steps(90);
+            assert_eq!(shown(&window), 1, "the pointer rests");
+            let state = &mut window.state_mut().state;
+            match is_question {
+                true => state.ask(UnsavedQuestion { then: Then::Quit }.into()),
+                false => state.show_overlay(Some(Overlay::About)),
+            }
+            for step in 0..60 {
+                window.run_steps(1);
+                assert_eq!(shown(&window), 0, "{id:?}, frame {step}");
+            }
+            if is_question {
+                let button = window.get_by_label("Don't save").rect().center();
+                window.event(Event::PointerMoved(button));
+                window.run_steps(90);
+                let own = "Continue without saving";
+                assert_eq!(window.query_all_by_label_contains(own).count(), 1, "its own tooltips are shown");
+            }
+        }
+    }
 }
 
 /// Returns whether a text is drawn that contains `part`.

@@ -112,6 +112,7 @@ pub mod takes;
 pub mod theme;
 pub mod timeline;
 mod toast;
+mod tooltip_closer;
 pub mod tool_drag;
 pub mod tool_state;
 mod transport;
@@ -130,6 +131,7 @@ pub use settings::Settings;
 pub use state::State;
 
 use egui::Ui;
+use tooltip_closer::{ModalKind, TooltipCloser};
 
 /// Every panel.
 pub fn all() -> Vec<Box<dyn Panel>> {
@@ -161,6 +163,7 @@ pub struct Desk {
     overlays: overlays::Overlays,
     dialogs: dialogs::Dialogs,
     toast: toast::Toast,
+    tooltips: TooltipCloser,
 }
 
 impl Desk {
@@ -169,7 +172,8 @@ impl Desk {
         let panels = all();
         let layout = Layout::parse(layout, &panels);
         let (overlays, dialogs) = (overlays::Overlays::default(), dialogs::Dialogs::default());
-        Self { panels, layout, overlays, dialogs, toast: toast::Toast::default() }
+        let (toast, tooltips) = (toast::Toast::default(), TooltipCloser::default());
+        Self { panels, layout, overlays, dialogs, toast, tooltips }
     }
 
     /// Returns the layout as the text of a layout file, if it changed since the last call.
@@ -196,6 +200,7 @@ impl Desk {
     pub fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         commands::Keymap::install(&context.settings.keys, ui.ctx());
         close_menus_beside_a_drag(ui.ctx());
+        let hidden = self.tooltips.begin(ui.ctx(), context);
         let theme = theme::Theme::of(ui);
         let bar = egui::Frame::NONE.fill(theme.bar);
         egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(
@@ -220,7 +225,10 @@ impl Desk {
         drop_hint(ui);
         buttonless_keys::show(ui, context, requests);
         key_aim::show(ui, context, requests);
+        let hidden = hidden.and_then(|hidden| hidden.show_above(ui.ctx(), ModalKind::Overlay));
         self.overlays.show(ui, context, requests);
+        let hidden = hidden.and_then(|hidden| hidden.show_above(ui.ctx(), ModalKind::Question));
+        debug_assert!(hidden.is_none(), "a question is above everything");
         self.dialogs.show(ui, context, requests);
         self.toast.show(ui, context);
     }
