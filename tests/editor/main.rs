@@ -99,6 +99,7 @@ mod scene_effects;
 mod scene_examples;
 mod scene_files;
 mod scene_focus;
+mod scene_free_places;
 mod scene_gizmo;
 mod scene_ground;
 mod scene_keys;

@@ -184,9 +184,8 @@ fn the_file_question_stays_until_a_path_is_given() {
 
 /// Returns the effects apart from looks at the folder of a path.
 fn answers(bench: &Bench) -> Vec<Effect> {
-    let is_look = |effect: &&Effect| {
-        matches!(effect, Effect::File(FileAction::Send(DocumentMessage::LookAtFolder(_))))
-    };
+    let is_look =
+        |effect: &&Effect| matches!(effect, Effect::File(FileAction::Send(DocumentMessage::LookAtFolder(_))));
     bench.effects.iter().filter(|effect| !is_look(effect)).cloned().collect()
 }
 

@@ -8,6 +8,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::dropped_files::{DropPlace, DroppedModel, DroppedModels, ModelForm};
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
+use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::Change;
@@ -72,7 +73,12 @@ fn an_object_dropped_on_a_bone_is_a_prop_that_the_bone_holds_from_the_start() {
         // A model that the scene has not read is read first.
         let effect = drop_at(&mut window, FLANK, "/scenes/table.glb");
         let Some(Effect::LookAtModels(unknown)) = effect else { panic!("{effect:?}") };
-        let model = |name: &str, form| DroppedModel { name: name.to_owned(), form, scale: 1.0 };
+        let model = |name: &str, form| DroppedModel {
+            name: name.to_owned(),
+            form,
+            scale: 1.0,
+            around: AxisBox::EMPTY,
+        };
         let models = vec![model("table.glb", form), model("Fox.glb", ModelForm::Figure)];
         let (place, target) = (unknown.place, unknown.target);
         let (sounds, hashes, copied) = (Vec::new(), Vec::new(), None);
@@ -123,7 +129,8 @@ fn a_model_dropped_beside_bones_stands_there_as_a_figure_or_an_object() {
     assert_eq!(text(&window), FOXES);
     let DropPlace::At(place) = unknown.place.clone() else { panic!("{unknown:?}") };
     assert!(place.distance(DVec3::new(0.0, 0.0, 1.5)) < 0.02, "{place}");
-    let models = vec![DroppedModel { name: "table.glb".to_owned(), form: ModelForm::Object, scale: 1.0 }];
+    let (name, form, around) = ("table.glb".to_owned(), ModelForm::Object, AxisBox::EMPTY);
+    let models = vec![DroppedModel { name, form, scale: 1.0, around }];
     let (place, target) = (unknown.place.clone(), unknown.target.clone());
     let (sounds, hashes, copied) = (Vec::new(), Vec::new(), None);
     let dropped = DroppedModels { models, place, sounds, hashes, copied, target };

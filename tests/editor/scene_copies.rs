@@ -9,6 +9,7 @@ use dragonfly::panels::dialogs::Question;
 use dragonfly::panels::dropped_files::{DroppedModel, DroppedModels, ModelForm, UnknownModels};
 use dragonfly::panels::status::{MessageSeverity, StatusMessage};
 use dragonfly::panels::{Effect, Request};
+use dragonfly_anim::bounds::AxisBox;
 use dragonfly_document::{NotSaved, SaveOrder, Then};
 use dragonfly_kit::folder::{Folder, data};
 use std::fs;
@@ -55,7 +56,7 @@ fn copies_are_named_also_where_the_scene_is_closed_while_the_copied_model_is_rea
     let UnknownModels { place, sounds, hashes, copied, target, .. } = *unknown;
     open_another(&mut window);
     let name = "models/knight.glb".to_owned();
-    let models = vec![DroppedModel { name, form: ModelForm::Figure, scale: 1.0 }];
+    let models = vec![DroppedModel { name, form: ModelForm::Figure, scale: 1.0, around: AxisBox::EMPTY }];
     let dropped = DroppedModels { models, place, sounds, hashes, copied, target };
     let effect = window.state_mut().state.execute(Request::DroppedModels(Box::new(dropped)));
     assert_eq!((effect, last(&window).text.as_str()), (None, NOT_ADDED));

@@ -10,6 +10,7 @@ use dragonfly::panels::dropped_files::{
 };
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, FileChoice, Request};
+use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::stage::script::{IncludedScripts, ScriptContext, StageScript};
 use dragonfly_document::{
     Cancel, Change, DocumentMessage, LoadedModel, OutdatedEdits, OutdatedEditsChoice, SavedFile,
@@ -268,7 +269,8 @@ fn files_for_a_script_are_not_added_to_another_one_of_the_same_folder() {
     assert!(said(&window, "not open any more"));
     // Models that were read in between are not added either.
     let form = ModelForm::Figure;
-    let models = vec![DroppedModel { name: "knight.glb".to_owned(), form, scale: 1.0 }];
+    let (name, around) = ("knight.glb".to_owned(), AxisBox::EMPTY);
+    let models = vec![DroppedModel { name, form, scale: 1.0, around }];
     let place = DropPlace::Nowhere;
     let (sounds, hashes, copied) = (Vec::new(), Vec::new(), None);
     let dropped = DroppedModels { models, place, sounds, hashes, copied, target };

@@ -1,5 +1,6 @@
 //! Files that a scene is to get: dropped onto it, chosen, or found in the place of missing ones.
 
+use dragonfly_anim::bounds::AxisBox;
 use dragonfly_document::{LoadedModel, MissingFile, SceneFiles};
 use glam::DVec3;
 use std::path::PathBuf;
@@ -12,6 +13,8 @@ pub enum DropPlace {
     Bone(String, DVec3),
     /// On the ground or a prop, scene space, to a centimeter.
     At(DVec3),
+    /// The window system does not report where; near this place on the ground, which is in the middle of the viewport.
+    Near(DVec3),
     /// Neither on a thing nor near the ground.
     Nowhere,
 }
@@ -47,6 +50,8 @@ pub struct DroppedModel {
     pub form: ModelForm,
     /// Factor from its lengths to meters.
     pub scale: f64,
+    /// The box around it at the start of its first take, in its own lengths; empty where it is not known.
+    pub around: AxisBox,
 }
 
 impl DroppedModel {
@@ -59,7 +64,8 @@ impl DroppedModel {
         };
         // Things that others hold may be small, and houses large.
         let scale = if form == ModelForm::Figure { loaded.human_scale() } else { 1.0 };
-        Self { name, form, scale }
+        let around = AxisBox { min: loaded.bounds.min, max: loaded.bounds.max };
+        Self { name, form, scale, around }
     }
 }
 

@@ -42,9 +42,8 @@ impl TooltipCloser {
             self.due = Some(ModalKind::Question);
         }
         (self.question, self.overlay) = (question, overlay);
-        let is_used = |pointer: &PointerState| {
-            pointer.any_down() || pointer.any_pressed() || pointer.any_released()
-        };
+        let is_used =
+            |pointer: &PointerState| pointer.any_down() || pointer.any_pressed() || pointer.any_released();
         let below = self.due.filter(|_| !ui.input(|input| is_used(&input.pointer)))?;
         self.due = None;
         Some(HiddenPointer { below, pointer: ui.input_mut(|input| std::mem::take(&mut input.pointer)) })

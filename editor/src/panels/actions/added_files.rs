@@ -1,5 +1,6 @@
 //! Files of the folder of the scene that become a part of it: models as roles and props, and sounds.
 
+use super::free_places::FreePlaces;
 use super::scene_gizmo::joined;
 use super::scene_text::{add_all, step, with_hashes};
 use crate::panels::dropped_files::{
@@ -35,7 +36,7 @@ pub(super) fn add(workspace: &mut Workspace, unknown: UnknownModels) -> Option<E
 
 /// Adds files to the scene whose models are known, in one step. A model without takes and skins is a prop. Models without a skin on a bone are props that it
 /// holds from the start of the scene, in its place; the first other one is put on the ground under the pointer, and each further one a meter to the right of the
-/// one before.
+/// one before. Where the pointer is elsewhere, roles are put next to those that are there.
 pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> Option<Effect> {
     if target_of(workspace) != dropped.target {
         workspace.say(MessageSeverity::Warning, other_scene(dropped.copied.as_deref()));
@@ -47,7 +48,7 @@ pub(super) fn add_known(workspace: &mut Workspace, dropped: &DroppedModels) -> O
     {
         hold(workspace, dropped, bone)
     } else {
-        let things = standing(dropped.models.iter(), &dropped.place);
+        let things = standing(workspace, dropped.models.iter(), &dropped.place);
         add_all(workspace, &things, &dropped.sounds, &dropped.hashes)
     };
     if effect.is_some() {
@@ -67,28 +68,41 @@ fn say_scales(workspace: &mut Workspace, models: &[DroppedModel]) {
     }
 }
 
-/// Returns models as things of the scene, a meter apart.
-fn standing<'a>(models: impl Iterator<Item = &'a DroppedModel>, place: &DropPlace) -> Vec<NewThing> {
-    let first = match place {
-        DropPlace::At(place) | DropPlace::Bone(_, place) => Some(*place),
-        DropPlace::Nowhere => None,
-    };
-    let places = (0..).map(|beside| points_text(&[first? + f64::from(beside) * DVec3::X]));
-    let thing = |(dropped, at): (&DroppedModel, Option<String>)| {
+/// Returns models as things of the scene: a meter apart from the place of the pointer on. Where that is not known, roles are next to those that are there,
+/// and not inside of them.
+fn standing<'a>(
+    workspace: &mut Workspace,
+    models: impl Iterator<Item = &'a DroppedModel>,
+    place: &DropPlace,
+) -> Vec<NewThing> {
+    let mut free = FreePlaces::of(workspace);
+    let thing = |(beside, dropped): (u32, &DroppedModel)| {
+        let by = f64::from(beside) * DVec3::X;
+        let is_role = match dropped.form {
+            ModelForm::Figure | ModelForm::Moving => true,
+            ModelForm::Object => false,
+        };
+        let at = match place {
+            DropPlace::At(first) | DropPlace::Bone(_, first) => Some(*first + by),
+            DropPlace::Near(first) if is_role => {
+                Some(free.as_mut().map_or(*first + by, |free| free.take(dropped, *first)))
+            }
+            DropPlace::Near(first) => Some(*first + by),
+            DropPlace::Nowhere if is_role => free.as_mut().map(|free| free.take(dropped, free.next())),
+            DropPlace::Nowhere => None,
+        };
+        let at = at.and_then(|at| points_text(&[at]));
         let model = NewModel { file: dropped.name.clone(), at, scale: dropped.scale };
-        match dropped.form {
-            ModelForm::Figure | ModelForm::Moving => NewThing::Role(model),
-            ModelForm::Object => NewThing::Prop(model),
-        }
+        if is_role { NewThing::Role(model) } else { NewThing::Prop(model) }
     };
-    models.zip(places).map(thing).collect()
+    (0..).zip(models).map(thing).collect()
 }
 
 /// Adds props that a bone holds, figures on the ground below it, and sounds.
 fn hold(workspace: &mut Workspace, dropped: &DroppedModels, bone: &str) -> Option<Effect> {
     let (figures, held): (Vec<&DroppedModel>, Vec<&DroppedModel>) =
         dropped.models.iter().partition(|model| model.form == ModelForm::Figure);
-    let figures = standing(figures.into_iter(), &dropped.place);
+    let figures = standing(workspace, figures.into_iter(), &dropped.place);
     let scene = workspace.model.view()?.scene.clone()?;
     let mut added = Vec::new();
     let at = workspace.read().scene_time();

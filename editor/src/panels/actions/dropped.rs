@@ -55,9 +55,11 @@ fn place_under_pointer(workspace: &mut Workspace) -> DropPlace {
             DropPlace::Bone(surface.name(), rounded(surface.place).with_y(ground))
         }
         Some(surface) if !surface.is_role => DropPlace::At(rounded(surface.place)),
-        Some(_) | None => {
-            scene_ground::pointed(workspace).map_or(DropPlace::Nowhere, |place| DropPlace::At(rounded(place)))
-        }
+        Some(_) | None => match scene_ground::pointed(workspace).map(rounded) {
+            Some(place) if scene_probe::pointer(workspace).is_some() => DropPlace::At(place),
+            Some(place) => DropPlace::Near(place),
+            None => DropPlace::Nowhere,
+        },
     }
 }
 

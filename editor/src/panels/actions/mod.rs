@@ -16,6 +16,7 @@ pub(super) mod execute;
 pub(super) mod feed;
 pub(super) mod files;
 pub(super) mod framing;
+mod free_places;
 pub(super) mod ik;
 pub(super) mod inbetween;
 pub(super) mod input;

@@ -79,7 +79,7 @@ fn framed_box(workspace: &mut Workspace, is_framed: impl Fn(&str) -> bool) -> Op
 }
 
 /// Returns the box around what is drawn of a thing at a place; `None` for things without a surface.
-fn box_of(scene: &SceneView, thing: &PlannedThing, place: &Transform) -> Option<AxisBox> {
+pub(super) fn box_of(scene: &SceneView, thing: &PlannedThing, place: &Transform) -> Option<AxisBox> {
     if !matches!(thing.kind, "role" | "prop") {
         return None;
     }

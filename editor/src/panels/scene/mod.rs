@@ -37,6 +37,7 @@ pub mod script;
 mod shot_list;
 pub mod shots;
 mod sounds;
+mod standing_boxes;
 mod template;
 mod thing_icon;
 mod thing_poses;
@@ -60,13 +61,14 @@ pub use line_editing::{LineEditing, line_name, line_named};
 pub use line_eraser::LineEraser;
 pub(in crate::panels) use line_eraser::nearest_on_piece;
 pub use new_thing::{
-    NewModel, NewThing, begin_text, new_thing_splices, with_new_sound, with_new_thing, with_run,
+    NewModel, NewThing, begin_text, new_thing_splices, role_place, with_new_sound, with_new_thing, with_run,
 };
 pub(in crate::panels) use outliner::{active_request, thing_menu};
 pub use probe::SceneProbe;
 pub use renamed_things::RenamedThings;
 pub use request::{DraggedTake, LineRequest, SceneRequest, ScriptChange};
 pub use sounds::{SceneSound, SceneSounds};
+pub use standing_boxes::StandingBoxes;
 pub(in crate::panels) use template::NO_LINES;
 pub use template::{ListedModel, duel_text, free_name, project_texts};
 pub use thing_poses::ThingPoses;

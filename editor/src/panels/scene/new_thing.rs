@@ -82,11 +82,7 @@ impl NewThing {
     fn element(&self, tree: &ScriptTree, id: &str) -> NewElement {
         let named = |name: &str| NewElement::new(name).with("id", id);
         match self {
-            Self::Role(model) => model.element("role", id, || {
-                // Next to each other, not inside of each other.
-                let roles = tree.elements().iter().filter(|element| element.row.name == "role").count();
-                format!("{roles} 0 0")
-            }),
+            Self::Role(model) => model.element("role", id, || format!("{} 0 0", role_place(tree))),
             Self::Prop(model) => model.element("prop", id, || "0 0 0".to_owned()),
             Self::Camera => named("camera").with("at", "0 1.6 6").with("look", "0 1 0").with("lens", "35mm"),
             Self::Light => named("light").with("kind", "sun").with("direction", "-1 -2 -1"),
@@ -102,6 +98,11 @@ impl NewThing {
             Self::Mark => named("mark").with("at", "0 0 0"),
         }
     }
+}
+
+/// Returns where on the x axis the next role is put where nothing is known of its size, meters: next to the others, not inside of them.
+pub fn role_place(tree: &ScriptTree) -> usize {
+    tree.elements().iter().filter(|element| element.row.name == "role").count()
 }
 
 /// Returns the name of a file without folder and extension, in lower case.
