@@ -111,6 +111,7 @@ mod scene_locked;
 mod scene_loop;
 mod scene_menu;
 mod scene_new;
+mod scene_no_ground;
 mod scene_notes;
 mod scene_outliner;
 mod scene_paths;

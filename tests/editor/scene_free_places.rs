@@ -1,4 +1,4 @@
-//! Roles that are added where another one stands: they are put next to it, on the ground.
+//! Roles that are added at a place that another one has: they are put next to it, on the ground.
 
 use crate::scene_bench::{FOXES, looked, new_lines, scene, text};
 use crate::scene_lines::{at, send};
@@ -11,7 +11,7 @@ use dragonfly_document::SceneModel;
 use glam::{DVec3, Vec3};
 use std::path::PathBuf;
 
-/// A scene in which a role stands where the next one would be put.
+/// A scene in which a role has the place of the next one.
 fn occupied() -> String {
     FOXES.replace("at=\"1 0 0\"", "at=\"2 0 0\"")
 }

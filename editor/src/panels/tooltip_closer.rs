@@ -5,12 +5,12 @@ use super::context::PanelContext;
 use super::overlay::Overlay;
 use egui::{Context, PointerState};
 
-/// What is open over the panels, and whether tooltips below it are still to be closed.
+/// The dialogs that are open over the panels, and whether tooltips below them are still to be closed.
 #[derive(Debug, Default)]
 pub(super) struct TooltipCloser {
     question: Option<u64>,
     overlay: Option<Overlay>,
-    /// What has opened since a frame without a pointer.
+    /// The dialog that has opened since the last frame without a pointer.
     due: Option<ModalKind>,
 }
 

@@ -189,6 +189,15 @@ impl LineControl {
         }
     }
 
+    /// Returns on what a press at this position would draw, points from the top left of the window, if it is not there; `None` where a line can be
+    /// drawn, and where a press does something else.
+    pub fn missing_at(&self, at: Vec2, modifiers: Modifiers) -> Option<LineSurface> {
+        let erases = self.is_erasing() || (modifiers.ctrl && self.use_of == Some(LineUse::Note));
+        let draws = self.is_drawing() || (self.draws_with(modifiers) && !erases);
+        let is_missing = draws && self.view.is_some() && self.place_at(at - self.corner).is_none();
+        is_missing.then(|| self.surface())
+    }
+
     fn plane(&self) -> Option<DrawingPlane> {
         Some(DrawingPlane {
             view: self.view?,

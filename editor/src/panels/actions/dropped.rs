@@ -39,9 +39,18 @@ fn dropped_on_scene(workspace: &mut Workspace, mut files: Vec<PathBuf>) -> Optio
         let names: Vec<String> = others.iter().map(|file| name(file)).collect();
         workspace.say(MessageSeverity::Warning, format!("Not added to the scene: {}", names.join(", ")));
     }
+    let has_models = !models.is_empty();
     let models = models.into_iter().map(|file| (SceneFileKind::Model, file));
     let sounds = sounds.into_iter().map(|file| (SceneFileKind::Sound, file));
     let place = place_under_pointer(workspace);
+    // A sound has no place.
+    if place == DropPlace::Nowhere
+        && has_models
+        && let Some(reason) =
+            scene_probe::pointer(workspace).and_then(|at| scene_ground::no_drop(workspace, at))
+    {
+        workspace.say(MessageSeverity::Warning, reason);
+    }
     scene_files::want(workspace, models.chain(sounds).collect(), FileUse::Add(place))
 }
 

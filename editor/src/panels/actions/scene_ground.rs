@@ -5,7 +5,7 @@ use super::scene_moves::BaseMoment;
 use super::scene_probe::{pointer, ray_at};
 use super::scene_text::step;
 use crate::panels::request::Effect;
-use crate::panels::scene::ChangedThings;
+use crate::panels::scene::{ChangedThings, no_drop_text};
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::GestureRefusal;
 use dragonfly_anim::stage::{PlannedThing, StagePlan};
@@ -116,12 +116,31 @@ pub(super) fn pointed(workspace: &Workspace) -> Option<DVec3> {
 
 /// Returns the place on the ground at a position of the window, points; `None` outside of the viewport and where there is no ground near.
 pub(super) fn ground_at(workspace: &Workspace, at: Pos2) -> Option<DVec3> {
+    any_ground_at(workspace, at).filter(|place| is_near(workspace, *place))
+}
+
+/// Returns why nothing is dropped at a position of the window, points; `None` outside of the viewport and where there is ground near.
+pub(super) fn no_drop(workspace: &Workspace, at: Pos2) -> Option<&'static str> {
+    if !workspace.camera.viewport().contains(at) {
+        return None;
+    }
+    let projection = workspace.camera.camera().projection;
+    match any_ground_at(workspace, at) {
+        Some(place) if is_near(workspace, place) => None,
+        found => Some(no_drop_text(found.is_some(), projection)),
+    }
+}
+
+/// Returns the place on the ground at a position of the window, however far away it is.
+fn any_ground_at(workspace: &Workspace, at: Pos2) -> Option<DVec3> {
     let (origin, direction) = ray_at(workspace, at)?;
     let ground = workspace.read().scene().map_or(0.0, SceneView::ground);
     let along = (ground - origin.y) / direction.y;
     let place = (origin + direction * along).with_y(ground);
+    (direction.y.abs() > LEAST_SLOPE && along > 0.0 && place.is_finite()).then_some(place)
+}
+
+fn is_near(workspace: &Workspace, place: DVec3) -> bool {
     let camera = workspace.camera.camera();
-    let from_target = place.distance(camera.target.as_dvec3());
-    let is_near = along > 0.0 && from_target < FARTHEST * f64::from(camera.distance);
-    (direction.y.abs() > LEAST_SLOPE && is_near && place.is_finite()).then_some(place)
+    place.distance(camera.target.as_dvec3()) < FARTHEST * f64::from(camera.distance)
 }

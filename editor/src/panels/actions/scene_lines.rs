@@ -9,7 +9,7 @@ use crate::control::{Button, InputEvent};
 use crate::panels::request::Effect;
 use crate::panels::scene::{
     ChangedThings, LINE_COLORS, LineEraser, LineRequest, NewThing, begin_text, color_text, line_name,
-    line_named,
+    line_named, no_place_text,
 };
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
@@ -21,7 +21,6 @@ use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{PlannedThing, RigidPlace, StageTake};
 use dragonfly_document::edit::{Edit, EditScript, ScriptLabel};
 use dragonfly_document::{Change, SceneView, paths_of_renamed_line};
-use dragonfly_picture::camera::Projection;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::Vec2;
 use std::sync::Arc;
@@ -68,21 +67,6 @@ pub(super) fn answered(workspace: &mut Workspace, answer: LineAnswer) -> Option<
             workspace.say(MessageSeverity::Info, text);
             None
         }
-    }
-}
-
-/// Returns why a line cannot be drawn under the pointer.
-fn no_place_text(surface: LineSurface, projection: Projection) -> &'static str {
-    match surface {
-        LineSurface::Ground => match projection {
-            Projection::Perspective => "There is no ground above the horizon",
-            Projection::Orthographic => {
-                "The ground is seen from its edge: turn the view, or draw a line in the view"
-            }
-        },
-        LineSurface::View => "The plane of the line is behind the camera: move the camera back",
-        LineSurface::Surface => "There is no surface under the pointer",
-        LineSurface::Bone => "There is no bone under the pointer",
     }
 }
 
@@ -189,10 +173,11 @@ fn draw_note(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Effect> 
 }
 
 /// Notes what is under the pointer, for lines that follow it: when a button is pressed, and while a line on a surface is drawn. For all
-/// lines, notes how high the ground is when a button is pressed.
+/// lines, notes how high the ground is before they begin.
 pub(super) fn follow_surface(workspace: &mut Workspace, event: InputEvent) {
     let line = workspace.tools.controls().line();
-    if line.use_of().is_some() && !line.is_drawing() && event == InputEvent::MouseDown(Button::Left) {
+    let looks = matches!(event, InputEvent::MouseDown(Button::Left) | InputEvent::MouseMove(_));
+    if line.use_of().is_some() && !line.is_drawing() && looks {
         let ground = workspace.read().scene().map_or(0.0, SceneView::ground);
         workspace.tools.controls_mut().line_mut().set_ground(ground);
     }

@@ -27,6 +27,7 @@ mod line_eraser;
 mod line_look;
 mod new_thing;
 mod newest_text;
+mod no_place;
 pub mod outliner;
 mod path_handles;
 mod probe;
@@ -63,6 +64,7 @@ pub(in crate::panels) use line_eraser::nearest_on_piece;
 pub use new_thing::{
     NewModel, NewThing, begin_text, new_thing_splices, role_place, with_new_sound, with_new_thing, with_run,
 };
+pub use no_place::{no_drop_text, no_place_text};
 pub(in crate::panels) use outliner::{active_request, thing_menu};
 pub use probe::SceneProbe;
 pub use renamed_things::RenamedThings;

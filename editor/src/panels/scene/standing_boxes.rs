@@ -1,4 +1,4 @@
-//! Free places on the ground: next to what stands there, by the boxes around it.
+//! Free places on the ground: next to the things that are there, by the boxes around them.
 
 use dragonfly_anim::bounds::AxisBox;
 use glam::DVec3;
@@ -12,7 +12,7 @@ const ROUNDING: f64 = 1e-6;
 /// Depth to which boxes may cut each other and count as next to each other, meters.
 const TOLERANCE: f64 = 1e-4;
 
-/// The boxes around what stands on the ground, scene space.
+/// The boxes around things on the ground, scene space.
 #[derive(Clone, Debug, Default)]
 pub struct StandingBoxes(Vec<[DVec3; 2]>);
 
@@ -24,8 +24,8 @@ impl StandingBoxes {
         }
     }
 
-    /// Returns the free place that is nearest to `wanted`: `wanted` itself, or the first one to the right, to the left, in front of it or behind it, to a
-    /// centimeter. `own` is the box around what is put there while it is at the origin.
+    /// Returns the free place that is nearest to `wanted`: `wanted` itself, or the first one along the axes of the ground, in either direction, to a
+    /// centimeter. `own` is the box around the thing that is put there while it is at the origin.
     pub fn free_place(&self, own: AxisBox, wanted: DVec3) -> DVec3 {
         if own.is_empty() {
             return wanted;
@@ -63,7 +63,7 @@ impl StandingBoxes {
 
 /// Returns whether a box at `place` cuts another one or is closer to it than the gap.
 fn cuts(own: [DVec3; 2], place: DVec3, [min, max]: &[DVec3; 2]) -> bool {
-    // What is above it is not next to it.
+    // A thing above it is not next to it.
     let gap = DVec3::new(GAP, 0.0, GAP) - TOLERANCE;
     (place + own[0]).cmplt(*max + gap).all() && (place + own[1]).cmpgt(*min - gap).all()
 }
@@ -90,7 +90,7 @@ mod tests {
         assert_eq!(boxes.free_place(own, wanted), DVec3::new(-1.1, 0.0, 0.0));
         boxes.add(around(Vec3::new(-1.5, 1.0, 0.0), half));
         assert_eq!(boxes.free_place(own, wanted), DVec3::new(0.3, 0.0, 1.85));
-        // What is over it or under it is not in the way.
+        // A thing over it or under it is not in the way.
         let above = wanted + DVec3::Y * 2.0;
         assert_eq!(boxes.free_place(own, above), above);
         assert_eq!(boxes.free_place(AxisBox::EMPTY, wanted), wanted);

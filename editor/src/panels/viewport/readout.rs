@@ -5,7 +5,7 @@ use super::glass::glass;
 use crate::control::Catch;
 use crate::control::gizmo::GizmoReadout;
 use crate::panels::context::PanelContext;
-use crate::panels::scene::SceneBase;
+use crate::panels::scene::{SceneBase, no_place_text};
 use crate::panels::theme::Theme;
 use dragonfly_picture::between;
 use dragonfly_picture::gizmo::{GizmoAxis, GizmoDelta, GizmoSpace, Handle, Tool};
@@ -13,7 +13,8 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
-/// Draws the text during a drag, while a line is drawn, while a command waits for its drag, over a gizmo that cannot be dragged, and over the keys of a motion path.
+/// Draws the text during a drag, while a line is drawn or cannot be drawn under the pointer, while a command waits for its drag, over a gizmo that cannot be
+/// dragged, and over the keys of a motion path.
 pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
@@ -40,6 +41,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
                 words(theme.weak),
             );
         }
+        if let Some(reason) = no_place(context) {
+            job.append(reason, 10.0, words(theme.warning));
+        }
     } else if context.tools.controls().line().is_erasing() {
         job.append("Erase lines", 0.0, words(theme.text));
     } else if let Some(catch) = context.tools.controls().picture().armed() {
@@ -49,6 +53,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
         };
         job.append(what, 0.0, words(theme.text));
         job.append("Shift adds, Ctrl toggles, Esc cancels", 10.0, words(theme.weak));
+    } else if let Some(reason) = no_place(context) {
+        job.append(reason, 0.0, words(theme.warning));
     } else if context.tools.controls().gizmo().refuses() && context.scene().is_some() {
         let Some(refusal) = scene_refusal(context) else { return };
         job.append(&refusal, 0.0, words(theme.text));
@@ -64,6 +70,15 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
         return;
     }
     beside_the_pointer(ui, rect, context, job);
+}
+
+/// Returns why the tool for lines cannot draw under the pointer.
+fn no_place(context: &PanelContext<'_>) -> Option<&'static str> {
+    let controls = context.tools.controls();
+    let is_there = controls.over_handle() || controls.is_busy();
+    let at = controls.pointer().filter(|_| is_there && controls.line().use_of().is_some())?;
+    let surface = controls.line().missing_at(at, controls.modifiers())?;
+    Some(no_place_text(surface, context.camera.projection))
 }
 
 /// Returns why the selected things of a scene cannot be moved.
