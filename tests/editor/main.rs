@@ -171,6 +171,7 @@ mod unplugged;
 mod user_texts;
 mod viewport_control;
 mod viewport_hidden;
+mod viewport_toolbar;
 mod viewport_tools;
 mod viewport_tools_fuzz;
 mod viewport_tools_ik;

@@ -64,14 +64,15 @@ impl Panel for Viewport {
         if context.view.is_some() {
             image_frame::show(ui, rect, context);
             overlay::drawn(ui, rect, context);
-            let tools = toolbar::toolbar(ui, first, context, requests);
+            let caption = Caption::of(ui, context);
+            let tools = toolbar::toolbar(ui, first, caption.least() + NAME + GAP, context, requests);
             shields.push(tools);
             let column = tools::toolbar(ui, first, context, requests);
             shields.extend(column);
             let left = column.map_or(first.left(), |column| column.right()) + 10.0;
             shields.extend(axes::axes(ui, rect, context, requests));
             shields.extend(second.map(|second| second::title(ui, second, context, requests)));
-            let bottom = caption(ui, first, [left, tools.left()], context);
+            let bottom = caption.show(ui, first, [left, tools.left()], context);
             let place = pos2(left, (first.top() + 52.0).max(bottom + 6.0));
             shields.extend(line_options::show(ui, first, place, context, requests));
             readout::show(ui, rect, context);
@@ -84,50 +85,79 @@ impl Panel for Viewport {
 /// The name of the free camera.
 const FREE: &str = "Free camera";
 
-/// Least width of the name of a camera next to the toolbar, points; in a narrower view it is below.
+/// Width that a name has next to the toolbar at least, unless it is shorter, points.
 const LEAST_NAME: f32 = 120.0;
+/// Distances of the name from the edge of the viewport and from the toolbar, points.
+const NAME: f32 = 14.0;
+const GAP: f32 = 12.0;
 
-/// Draws the names of model and take at the top left, as far as `right`; long names are truncated. `left` is where there are no tools below the
-/// toolbar. Returns the lower edge.
-fn caption(ui: &Ui, rect: Rect, [left, right]: [f32; 2], context: &PanelContext<'_>) -> f32 {
-    let Some(view) = context.view else { return rect.top() };
-    let theme = Theme::of(ui);
+/// The names of model and take, or of scene and camera, at the top left.
+struct Caption {
+    title: String,
+    /// Width of the title, points.
+    width: f32,
+}
+
+impl Caption {
+    fn of(ui: &Ui, context: &PanelContext<'_>) -> Self {
+        let title = match context.view {
+            Some(view) if view.scene.is_some() => match (camera_title(context), context.second_view) {
+                // Each of two views has the name of its camera.
+                (camera, Some(_)) => camera.unwrap_or_else(|| FREE.to_owned()),
+                (Some(camera), None) => format!("{}  ·  {camera}", view.file.title),
+                (None, None) => view.file.title.clone(),
+            },
+            Some(view) => view.file.title.clone(),
+            None => String::new(),
+        };
+        let galley =
+            ui.painter().layout_no_wrap(title.clone(), FontId::proportional(style::BODY), Color32::WHITE);
+        // A point more, so that rounding truncates nothing.
+        Self { title, width: galley.size().x.ceil() + 1.0 }
+    }
+
+    /// Returns the width that it has next to the toolbar at least, points; in a view that is too narrow for that it is below.
+    fn least(&self) -> f32 {
+        self.width.min(LEAST_NAME)
+    }
+
+    /// Draws the names as far as `right`; long names are truncated. `left` is where there are no tools below the toolbar. Returns the lower edge.
+    fn show(&self, ui: &Ui, rect: Rect, [left, right]: [f32; 2], context: &PanelContext<'_>) -> f32 {
+        let Some(view) = context.view else { return rect.top() };
+        let theme = Theme::of(ui);
+        let at = pos2(rect.left() + NAME, rect.top() + 12.0);
+        let width = right - at.x - GAP;
+        let what = if view.scene.is_some() { "scene" } else { "model" };
+        let big = (style::BODY, theme.text);
+        if context.second_view.is_some() && width < self.least() - 0.5 {
+            let at = pos2(left, rect.top() + 52.0);
+            return name(ui, at, rect.right() - left - 10.0, &self.title, what, big);
+        }
+        let bottom = name(ui, at, width, &self.title, what, big);
+        if rect.width() <= 640.0 {
+            return bottom;
+        }
+        let (text, what) = match &view.scene {
+            Some(scene) => {
+                let things = scene.plan.as_ref().map_or(0, |plan| plan.things().len());
+                (Cow::Owned(widgets::count(things, "thing", "things")), "cast")
+            }
+            None => (take_title(context), "take"),
+        };
+        name(ui, pos2(at.x, bottom + 2.0), width, &text, what, (style::SMALL, theme.weak))
+    }
+}
+
+/// Returns the name of the take that is shown, with the layer whose keys are edited.
+fn take_title<'a>(context: &PanelContext<'a>) -> Cow<'a, str> {
     let take = match context.playback.take {
         Some(take) => context.digest.takes.get(take).map_or("", |take| take.name.as_str()),
         None => "Rest pose",
     };
-    // The layer whose keys are edited.
     let layer = context.layer().and_then(|layer| context.layers().get(layer));
-    let take = match layer {
+    match layer {
         Some(layer) => Cow::Owned(format!("{take}  ·  layer {}", layer.settings.name)),
         None => Cow::Borrowed(take),
-    };
-    let at = pos2(rect.left() + 14.0, rect.top() + 12.0);
-    let width = right - at.x - 12.0;
-    if let Some(scene) = &view.scene {
-        let title = match (camera_title(context), context.second_view) {
-            // Each of two views has the name of its camera.
-            (camera, Some(_)) => camera.unwrap_or_else(|| FREE.to_owned()),
-            (Some(camera), None) => format!("{}  ·  {camera}", view.file.title),
-            (None, None) => view.file.title.clone(),
-        };
-        if context.second_view.is_some() && width < LEAST_NAME {
-            let at = pos2(left, rect.top() + 52.0);
-            let width = rect.right() - left - 10.0;
-            return name(ui, at, width, &title, "scene", (style::BODY, theme.text));
-        }
-        let bottom = name(ui, at, width, &title, "scene", (style::BODY, theme.text));
-        if rect.width() <= 640.0 {
-            return bottom;
-        }
-        let things = scene.plan.as_ref().map_or(0, |plan| plan.things().len());
-        let text = widgets::count(things, "thing", "things");
-        return name(ui, pos2(at.x, bottom + 2.0), width, &text, "cast", (style::SMALL, theme.weak));
-    }
-    let bottom = name(ui, at, width, &view.file.title, "model", (style::BODY, theme.text));
-    match rect.width() > 640.0 {
-        true => name(ui, pos2(at.x, bottom + 2.0), width, &take, "take", (style::SMALL, theme.weak)),
-        false => bottom,
     }
 }
 
