@@ -70,6 +70,7 @@ mod tangents;
 mod travel;
 mod turns_and_cycles;
 mod undo;
+mod waiting_scene;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

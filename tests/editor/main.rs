@@ -102,6 +102,7 @@ mod scene_focus;
 mod scene_free_places;
 mod scene_gizmo;
 mod scene_ground;
+mod scene_in_place;
 mod scene_keys;
 mod scene_left;
 mod scene_line_options;

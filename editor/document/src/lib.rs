@@ -154,5 +154,5 @@ pub use take_check::{CheckedTake, TakeCheck};
 pub use take_thresholds::TakeThresholds;
 pub use text_source::{is_project, is_scene, is_script};
 pub use thing_names::{references_of_renamed_thing, script_that_names};
-pub use view::{FileView, HistoryView, LoadedModel, View};
+pub use view::{FileView, HistoryView, LoadedModel, View, WaitingSceneView};
 pub use writing::StayingFiles;

@@ -304,7 +304,7 @@ impl Document {
             self.report_changed_models();
         }
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
-        let waiting_scene = self.scene.as_ref().map(|scene| scene.open.file.title.as_str().into());
+        let waiting_scene = self.scene.as_ref().map(WaitingScene::view);
         let view = View { answered: self.answered, waiting_scene, ..view };
         self.shown_unrecorded = view.is_unrecorded;
         // Errors are ignored as in `reply`. The graphics thread comes first: it has more to do.

@@ -121,6 +121,13 @@ impl HistoryView {
         Self { steps: labels, numbers, about, amounts, shows_difference, brings_takes, done, saved, saved_at }
     }
 
+    /// Returns whether a step with this label was applied or undone since nothing was unsaved.
+    pub fn has_unsaved_step(&self, label: &str) -> bool {
+        let saved = self.saved_at.unwrap_or_default();
+        let unsaved = saved.min(self.done)..saved.max(self.done);
+        self.steps.get(unsaved).is_some_and(|steps| steps.contains(&label))
+    }
+
     /// Returns the last unsaved step as a sentence; `None` where nothing is unsaved.
     pub fn last_unsaved(&self) -> Option<String> {
         let label = |at: usize| self.steps.get(at).copied();
@@ -160,6 +167,22 @@ impl FileView {
     }
 }
 
+/// A scene that waits while one of its models is edited.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WaitingSceneView {
+    /// Title of its file.
+    pub title: Arc<str>,
+    /// Whether nothing of it is unsaved. The edits of the model are not counted: the scene gets them when it is shown again.
+    pub saved: bool,
+}
+
+impl From<&str> for WaitingSceneView {
+    /// Returns a saved scene with this title.
+    fn from(title: &str) -> Self {
+        Self { title: title.into(), saved: true }
+    }
+}
+
 /// Bit that is set in the generation of an echo, so that it differs from the generations of the document.
 const ECHO: u64 = 1 << 63;
 
@@ -188,8 +211,8 @@ pub struct View {
     pub file: Arc<FileView>,
     /// The scene, if a script is open; the model is then an empty one.
     pub scene: Option<Arc<SceneView>>,
-    /// Title of the scene that waits while this model of it is edited; `None` for a document that was opened itself.
-    pub waiting_scene: Option<Arc<str>>,
+    /// The scene that waits while this model of it is edited; `None` for a document that was opened itself.
+    pub waiting_scene: Option<WaitingSceneView>,
     /// Whether unsaved work is not recorded, so that a crash would lose it.
     pub is_unrecorded: bool,
 }

@@ -2,6 +2,7 @@
 
 use super::open::Open;
 use super::scene_model_source::SceneModelSource;
+use super::view::WaitingSceneView;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -26,6 +27,12 @@ impl WaitingScene {
     /// Returns whether the scene has work that is not saved.
     pub(super) fn has_unsaved_work(&self) -> bool {
         self.open.has_unsaved_work()
+    }
+
+    /// Returns it as it is shown.
+    pub(super) fn view(&self) -> WaitingSceneView {
+        let title = self.open.file.title.as_str().into();
+        WaitingSceneView { title, saved: !self.open.edited.has_unsaved() }
     }
 
     /// Flushes its journal where that is due. Returns the time at which there is something to do again.

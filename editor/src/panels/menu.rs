@@ -1,7 +1,7 @@
 //! The menu bar.
 
 use super::commands::{self, Category, Id};
-use super::context::PanelContext;
+use super::context::{PanelContext, title_with_dot};
 use super::edit_scope_menu;
 use super::keys_menu;
 pub(super) use super::menu_entries::{entries, item};
@@ -277,7 +277,8 @@ pub(super) fn look_through(ui: &mut Ui, context: &PanelContext<'_>, requests: &m
 /// Draws the button that shows the scene again whose model is edited.
 fn back(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let Some(scene) = context.view.and_then(|view| view.waiting_scene.as_ref()) else { return };
-    let title = RichText::new(format!("\u{2190} Back to {scene}")).color(Theme::of(ui).accent);
+    let name = title_with_dot(&scene.title, scene.saved);
+    let title = RichText::new(format!("\u{2190} Back to {name}")).color(Theme::of(ui).accent);
     let response = ui.add(Button::new(title).frame_when_inactive(false)).accessible_name("Back to scene");
     if response.on_hover_text(commands::tooltip(ui.ctx(), Id::BackToScene)).clicked() {
         requests.push(Request::Command(Id::BackToScene));

@@ -9,6 +9,9 @@ mod pose;
 mod reference;
 mod scene;
 mod scope;
+mod title;
+
+pub(super) use title::title_with_dot;
 
 use super::compared::{CompareWith, ComparedFile};
 use super::curves::given::GivenAngles;

@@ -68,18 +68,6 @@ impl<'a> PanelContext<'a> {
         (self.slot().map_or(0, TakeVersions::pending_poses), all)
     }
 
-    /// Returns the title of the window: the name of the document, with a dot before it while something is not in its file.
-    pub fn window_title(&self) -> String {
-        let Some(view) = self.view else { return "Dragonfly".to_owned() };
-        let project = view.scene.as_ref().and_then(|scene| scene.project.as_ref()?.name());
-        let name = match view.file.path {
-            Some(_) => project.unwrap_or(&view.file.title),
-            None => "Untitled",
-        };
-        let dot = if view.history.saved && self.pending_poses().1 == 0 { "" } else { "• " };
-        format!("{dot}{name} – Dragonfly")
-    }
-
     /// Returns the selected bones that a change is for: those that are not locked. If all of them are locked, returns
     /// all, so that the change is refused with a message.
     pub fn bones_to_pose(&self) -> impl Iterator<Item = BoneIndex> + use<'a> {

@@ -4,6 +4,7 @@ use super::ask::{Ask, Tone};
 use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
+use dragonfly_document::edit::ScriptLabel;
 use dragonfly_document::{DocumentMessage, SaveOrder, Then};
 
 #[derive(Clone, Copy)]
@@ -36,6 +37,18 @@ impl QuestionKind for UnsavedQuestion {
                 format!("It has unsaved changes, and {} is about to be opened.", source.title())
             }
         });
+        if let Some(scene) = ask.view.and_then(|view| view.waiting_scene.as_ref()) {
+            ask.adds(match scene.saved {
+                true => format!("It is edited in {}, which is saved.", scene.title),
+                false => format!(
+                    "It is edited in {}, which has unsaved changes, too. The next question is about them.",
+                    scene.title
+                ),
+            });
+        }
+        if ask.view.is_some_and(|view| view.history.has_unsaved_step(ScriptLabel::EditModel.text())) {
+            ask.adds("Edits of models are among them. The project keeps them; the files of the models stay as they are.");
+        }
         if let Some(last) = ask.view.and_then(|view| view.history.last_unsaved()) {
             ask.adds(last);
         }

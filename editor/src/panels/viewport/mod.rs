@@ -107,6 +107,7 @@ impl Caption {
                 (Some(camera), None) => format!("{}  ·  {camera}", view.file.title),
                 (None, None) => view.file.title.clone(),
             },
+            Some(view) if view.waiting_scene.is_some() => context.name_in_scene(&view.file.title),
             Some(view) => view.file.title.clone(),
             None => String::new(),
         };
