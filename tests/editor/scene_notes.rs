@@ -141,6 +141,43 @@ fn a_line_on_a_bone_moves_with_it_is_dragged_and_is_erased_where_it_is() {
     assert_eq!(lines(&window), NONE, "erased");
 }
 
+/// Notes on a surface, and on a bone of the fox that walks.
+const NOTES: &str = r#"<lines version="1">
+  <line id="skin" on="surface" points="-0.3 0 1.5  -0.1 0.02 1.5  0.1 0.02 1.5  0.3 0 1.5"/>
+  <line id="held" on="bone" of="ben.b_Head_05" points="0 0.1 0  0 0.2 0  0 0.3 0  0 0.4 0"/>
+</lines>
+"#;
+
+/// Clicks at a place of the scene. Returns the line that is selected then.
+fn clicked(window: &mut Window, place: DVec3) -> Option<String> {
+    let none = Request::Scene(SceneRequest::Line(LineRequest::Select(None)));
+    window.state_mut().state.execute(none);
+    window.run_steps(2);
+    let at = at(window, place);
+    send(window, InputEvent::MouseMove(at));
+    send(window, InputEvent::MouseDown(Button::Left));
+    send(window, InputEvent::MouseUp(Button::Left));
+    window.state().state.read().scene_editing.lines().selected().map(str::to_owned)
+}
+
+#[test]
+fn a_note_on_a_surface_or_a_bone_is_picked_where_it_is_drawn_at_the_frame_that_is_shown() {
+    let mut window = project(FOXES, NOTES).window();
+    let middle = |window: &Window, seconds: f64| {
+        let place = place_of(window, "ben.b_Head_05", seconds);
+        place.rotation * DVec3::new(0.0, 0.25, 0.0) + place.position
+    };
+    let [before, after] = [0.0, 3.0].map(|seconds| middle(&window, seconds));
+    assert!(at(&window, before).distance(at(&window, after)) > 40.0, "the fox has walked");
+    for (seconds, here, elsewhere) in [(0.0, before, after), (3.0, after, before)] {
+        seek(&mut window, seconds);
+        assert_eq!(clicked(&mut window, here).as_deref(), Some("held"), "{seconds} s");
+        assert_eq!(clicked(&mut window, elsewhere), None, "{seconds} s");
+        let on_surface = DVec3::new(0.0, 0.015, 1.5);
+        assert_eq!(clicked(&mut window, on_surface).as_deref(), Some("skin"), "{seconds} s");
+    }
+}
+
 #[test]
 fn a_line_that_is_to_move_with_a_bone_has_to_begin_on_one() {
     let mut window = project(FOXES, NONE).window();
