@@ -163,16 +163,50 @@ fn a_drag_stays_in_its_view_and_one_view_alone_is_the_first_one() {
     send(&mut window, InputEvent::MouseDown(Button::Middle));
     send(&mut window, InputEvent::MouseMove(Vec2::new(right.center().x, center.y)));
     assert_eq!(places(&window), (left, Some(right)), "the button is held");
-    send(&mut window, InputEvent::MouseUp(Button::Middle));
     let moved = active(&window).0;
     assert_ne!(moved, free);
-    point(&mut window, right.center());
-    assert_eq!(places(&window), (right, Some(left)));
+    send(&mut window, InputEvent::MouseUp(Button::Middle));
+    assert_eq!(places(&window), (right, Some(left)), "the pointer is there");
     run(&mut window, Id::ToggleSecondView);
     window.run_steps(3);
     let (whole, none) = places(&window);
     assert!(none.is_none() && whole.left() == left.left() && whole.right() == right.right());
     assert_eq!(active(&window), (moved, ThroughCamera::Free));
+}
+
+#[test]
+fn a_drag_with_alt_that_ends_in_the_other_view_and_a_box_that_waits_belong_to_the_view_under_the_pointer() {
+    let (mut window, [left, right]) = both();
+    point(&mut window, left.center());
+    let free = active(&window).0;
+    let at = Vec2::new(left.center().x, left.center().y);
+    send(&mut window, InputEvent::Modifiers(Held { alt: true, ..Held::default() }));
+    send(&mut window, InputEvent::MouseDown(Button::Left));
+    send(&mut window, InputEvent::MouseMove(Vec2::new(right.center().x, at.y)));
+    send(&mut window, InputEvent::MouseUp(Button::Left));
+    send(&mut window, InputEvent::Modifiers(Held::default()));
+    let (of_shot, through) = active(&window);
+    assert_eq!((places(&window), through), ((right, Some(left)), ThroughCamera::Shot));
+    // The drag has moved the camera of the view in which it began.
+    let other = window.state().state.read().other_camera;
+    assert!(other.eye().distance(free.eye()) > 0.1 && of_shot != free, "{other:?} {free:?}");
+    // The text about a box is in the view under the pointer, and the box is drawn there.
+    run(&mut window, Id::BoxSelect);
+    for rect in [right, left, right] {
+        point(&mut window, rect.center());
+        let hint = window.get_by_label_contains("Drag a box over bones").rect();
+        assert!(rect.contains_rect(hint), "{hint} in {rect}");
+    }
+    let mut effects = Vec::new();
+    let from = Vec2::new(right.center().x, right.center().y);
+    for event in [
+        InputEvent::MouseDown(Button::Left),
+        InputEvent::MouseMove(from + Vec2::splat(40.0)),
+        InputEvent::MouseUp(Button::Left),
+    ] {
+        window.state_mut().state.input(event, &mut effects);
+    }
+    assert!(effects.iter().any(|effect| matches!(effect, Effect::Catch(..))), "{effects:?}");
 }
 
 #[test]

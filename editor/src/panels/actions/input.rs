@@ -31,7 +31,9 @@ pub(in crate::panels) fn input(
         workspace.stage.focus(None);
         return true;
     }
-    second_view::follow_pointer(workspace, event, effects);
+    if let InputEvent::MouseMove(at) = event {
+        second_view::follow_pointer(workspace, at, effects);
+    }
     let pressed = event == InputEvent::MouseDown(Button::Left);
     if pressed && workspace.player.is_playing() && workspace.tools.controls().over_handle() {
         // Playback must not move a handle that is being dragged.
@@ -49,6 +51,10 @@ pub(in crate::panels) fn input(
         workspace.keys.lose_focus();
     }
     take_answers(workspace, effects);
+    // A drag may end in the other view.
+    if let (InputEvent::MouseUp(_), Some(at)) = (event, workspace.tools.controls().pointer()) {
+        second_view::follow_pointer(workspace, at, effects);
+    }
     taken
 }
 

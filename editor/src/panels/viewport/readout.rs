@@ -13,6 +13,9 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
+/// Least width at which the text is wrapped, points.
+const LEAST: f32 = 80.0;
+
 /// Draws the text during a drag, while a line is drawn or cannot be drawn under the pointer, while a command waits for its drag, over a gizmo that cannot be
 /// dragged, and over the keys of a motion path.
 pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
@@ -91,8 +94,10 @@ fn scene_refusal(context: &PanelContext<'_>) -> Option<String> {
     SceneBase::of(scene, editing.text(scene)).err().map(|refusal| refusal.to_string())
 }
 
-fn beside_the_pointer(ui: &Ui, rect: Rect, context: &PanelContext<'_>, job: LayoutJob) {
+fn beside_the_pointer(ui: &Ui, rect: Rect, context: &PanelContext<'_>, mut job: LayoutJob) {
     let text = job.text.clone();
+    // One of two views may be narrower than the text.
+    job.wrap.max_width = (rect.width() - 12.0 - 4.0 * GRID).max(LEAST);
     let galley = ui.painter().layout_job(job);
     let size = galley.size() + vec2(4.0 * GRID, 2.0 * GRID);
     let pointer = context.tools.controls().pointer().map_or(rect.center(), |at| pos2(at.x, at.y));
