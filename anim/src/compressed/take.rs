@@ -6,7 +6,7 @@ use super::read::read;
 use super::stored::BETWEEN;
 use super::table::Tables;
 use crate::data::{Channel, Take, Track};
-use crate::fast::simd::{Kernel, Simd, SimdLevel};
+use crate::fast::simd::{Simd, SimdLevel};
 use crate::fast::{Playable, Pose, PoseBlock, StillPose};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
@@ -158,6 +158,6 @@ impl Playable for CompressedTake {
 
     #[inline(always)]
     fn sample_moving_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
-        Decode { tables: &self.tables, bytes: &self.bytes, time, out }.run::<S>();
+        S::call(Decode { tables: &self.tables, bytes: &self.bytes, time, out });
     }
 }

@@ -61,11 +61,12 @@ pub fn blend_normalized(level: SimdLevel, base: &[PoseBlock], layers: &[PoseLaye
     level.run(Blend { base, layers, out, normalized: true });
 }
 
-struct Blend<'a> {
-    base: &'a [PoseBlock],
-    layers: &'a [PoseLayer<'a>],
-    out: &'a mut [PoseBlock],
-    normalized: bool,
+/// The kernel of [`blend`], and of [`blend_normalized`].
+pub(super) struct Blend<'a> {
+    pub(super) base: &'a [PoseBlock],
+    pub(super) layers: &'a [PoseLayer<'a>],
+    pub(super) out: &'a mut [PoseBlock],
+    pub(super) normalized: bool,
 }
 
 impl Kernel for Blend<'_> {
@@ -73,23 +74,13 @@ impl Kernel for Blend<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        blend_with::<S>(self.base, self.layers, self.out, self.normalized);
-    }
-}
-
-/// As [`blend`], as part of a larger kernel.
-#[inline(always)]
-pub(super) fn blend_with<S: Simd>(
-    base: &[PoseBlock],
-    layers: &[PoseLayer],
-    out: &mut [PoseBlock],
-    normalized: bool,
-) {
-    let blocks = base.len().min(out.len());
-    let (base, out) = (&base[..blocks], &mut out[..blocks]);
-    let has_masks = layers.iter().any(|layer| layer.mask.is_some());
-    if has_masks || !evenly::<S>(base, layers, out, normalized) {
-        with_masks::<S>(base, layers, out, normalized);
+        let Self { base, layers, out, normalized } = self;
+        let blocks = base.len().min(out.len());
+        let (base, out) = (&base[..blocks], &mut out[..blocks]);
+        let has_masks = layers.iter().any(|layer| layer.mask.is_some());
+        if has_masks || !evenly::<S>(base, layers, out, normalized) {
+            with_masks::<S>(base, layers, out, normalized);
+        }
     }
 }
 

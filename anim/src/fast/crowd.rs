@@ -16,7 +16,7 @@ use super::matrix::Matrix34;
 use super::played::PlayedPose;
 use super::pose::PoseBlock;
 use super::rig::Rig;
-use super::simd::{LANES, MOST_LANES, Many};
+use super::simd::{Kernel, LANES, MOST_LANES, Many, Simd};
 use super::still::StillPose;
 use std::array::from_fn;
 use std::sync::Arc;
@@ -79,23 +79,45 @@ impl Crowd {
     pub(super) fn pose(&mut self, lane: usize) -> &mut PlayedPose {
         &mut self.poses[self.places[lane % MOST_LANES] % MOST_LANES]
     }
+}
 
-    /// Computes the final matrices from the poses: those of one character after those of the other. Returns whether all
-    /// are finite; otherwise the characters have to be computed one by one.
+/// Computes the final matrices from the poses of a crowd: those of one character after those of the other. Returns whether all
+/// are finite; otherwise the characters have to be computed one by one.
+pub(super) struct CrowdFinals<'a> {
+    pub(super) crowd: &'a mut Crowd,
+    pub(super) rig: &'a Rig,
+    pub(super) binding: &'a SkinBinding,
+    pub(super) out: &'a mut [Matrix34],
+}
+
+impl Kernel for CrowdFinals<'_> {
+    type Output = bool;
+
     #[inline(always)]
-    pub(super) fn finals<M: Many>(&mut self, rig: &Rig, binding: &SkinBinding, out: &mut [Matrix34]) -> bool {
-        let Self { poses, places, matrices } = self;
-        let start = matrices.as_ptr().align_offset(ALIGNMENT).min(matrices.len());
-        let matrices = M::numbers_of(&mut matrices[start..]).as_chunks_mut().0;
-        if let Some(first) = matrices.first_mut() {
-            *first = [M::ZEROS; 12];
-            M::all(1.0).put(&mut first[0]);
-            M::all(1.0).put(&mut first[5]);
-            M::all(1.0).put(&mut first[10]);
-        }
-        let poses = from_fn(|lane| poses[places[lane] % MOST_LANES].blocks());
-        pose_bones::<M>(rig, binding, &poses, matrices, out).is_some_and(M::is_number)
+    fn run<S: Simd>(self) -> bool {
+        let Self { crowd, rig, binding, out } = self;
+        final_matrices::<S::Many>(crowd, rig, binding, out)
     }
+}
+
+#[inline(always)]
+fn final_matrices<M: Many>(
+    crowd: &mut Crowd,
+    rig: &Rig,
+    binding: &SkinBinding,
+    out: &mut [Matrix34],
+) -> bool {
+    let Crowd { poses, places, matrices } = crowd;
+    let start = matrices.as_ptr().align_offset(ALIGNMENT).min(matrices.len());
+    let matrices = M::numbers_of(&mut matrices[start..]).as_chunks_mut().0;
+    if let Some(first) = matrices.first_mut() {
+        *first = [M::ZEROS; 12];
+        M::all(1.0).put(&mut first[0]);
+        M::all(1.0).put(&mut first[5]);
+        M::all(1.0).put(&mut first[10]);
+    }
+    let poses = from_fn(|lane| poses[places[lane] % MOST_LANES].blocks());
+    pose_bones::<M>(rig, binding, &poses, matrices, out).is_some_and(M::is_number)
 }
 
 /// Computes `to_root` of every bone that a joint needs, and the final matrices, of each character. Returns NaN in some

@@ -15,13 +15,33 @@ use super::matrix::{Matrix34, RootMatrix};
 use super::played::{LocalPoses, PlayedPose};
 use super::pose::PoseBlock;
 use super::rig::{NARROW, Rig};
-use super::simd::{Rows, Simd};
+use super::simd::{Kernel, Rows, Simd};
 use super::to_root::{RootPoses, fit, to_parent, to_root_with};
 
-/// Computes the final matrices of `played`. `locals` and `roots` are for `to_parent` and `to_root` of the bones that a
-/// joint needs.
+/// Computes the final matrices of `played`.
+pub(super) struct FinalPoses<'a> {
+    pub(super) rig: &'a Rig,
+    pub(super) binding: &'a SkinBinding,
+    pub(super) played: &'a PlayedPose,
+    /// Memory for `to_parent` of the bones that a joint needs.
+    pub(super) locals: &'a mut LocalPoses,
+    /// Memory for `to_root` of them.
+    pub(super) roots: &'a mut RootPoses,
+    pub(super) out: &'a mut [Matrix34],
+}
+
+impl Kernel for FinalPoses<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        let Self { rig, binding, played, locals, roots, out } = self;
+        one_character::<S>(rig, binding, played, locals, roots, out);
+    }
+}
+
 #[inline(always)]
-pub(super) fn one_character<S: Simd>(
+fn one_character<S: Simd>(
     rig: &Rig,
     binding: &SkinBinding,
     played: &PlayedPose,

@@ -10,11 +10,11 @@
 //! when a crowd is divided by that number are computed one by one; that gives the same bits.
 
 use super::binding::SkinBinding;
-use super::blend::{PoseLayer, blend_with};
-use super::crowd::Crowd;
+use super::blend::{Blend, PoseLayer};
+use super::crowd::{Crowd, CrowdFinals};
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
-use super::one_character::one_character;
+use super::one_character::FinalPoses;
 use super::playable::Playable;
 use super::played::{LocalPoses, PlayedPose};
 use super::pose::Pose;
@@ -123,7 +123,7 @@ pub fn pose_crowd<'a, T: Playable + 'a>(
     scratch: &mut Scratch,
     out: &mut [Matrix34],
 ) {
-    level.run(ManyCharacters { rig, binding, characters: characters.into_iter(), scratch, out });
+    level.run(ManyCharacters { rig, binding, characters: &mut characters.into_iter(), scratch, out });
 }
 
 struct OneCharacter<'a, T> {
@@ -144,20 +144,21 @@ impl<T: Playable> Kernel for OneCharacter<'_, T> {
     }
 }
 
-struct ManyCharacters<'a, I> {
+struct ManyCharacters<'a, 'p, T> {
     rig: &'a Rig,
     binding: &'a SkinBinding,
-    characters: I,
+    /// Of any type: the kernel is compiled once for all of them.
+    characters: &'a mut dyn Iterator<Item = &'p [Playing<'p, T>]>,
     scratch: &'a mut Scratch,
     out: &'a mut [Matrix34],
 }
 
-impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for ManyCharacters<'_, I> {
+impl<T: Playable> Kernel for ManyCharacters<'_, '_, T> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        let Self { rig, binding, mut characters, scratch, out } = self;
+        let Self { rig, binding, characters, scratch, out } = self;
         let joints = binding.joints().max(1);
         // The exact matrices of a sheared rest pose are put in for one character at a time. Where eight numbers need
         // more than one register, there are too few of them.
@@ -166,7 +167,7 @@ impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for 
         for out in out.chunks_mut(most * joints) {
             let mut group: [&[Playing<T>]; MOST_LANES] = [&[]; MOST_LANES];
             let mut count = 0;
-            for (slot, layers) in group.iter_mut().zip(characters.by_ref().take(out.len().div_ceil(joints))) {
+            for (slot, layers) in group.iter_mut().zip((&mut *characters).take(out.len().div_ceil(joints))) {
                 *slot = layers;
                 count += 1;
             }
@@ -192,7 +193,7 @@ fn character<S: Simd, T: Playable>(
 ) {
     let Scratch { sampled, blended, to_parent, to_root, .. } = scratch;
     pose::<S, T>(rig, layers, sampled, blended);
-    one_character::<S>(rig, binding, blended, to_parent, to_root, out);
+    S::call(FinalPoses { rig, binding, played: blended, locals: to_parent, roots: to_root, out });
 }
 
 /// Computes the final matrices of a full register of characters, and returns whether all numbers are finite; otherwise
@@ -210,7 +211,7 @@ fn at_once<S: Simd, T: Playable>(
     for (lane, layers) in group.iter().enumerate().take(S::Many::COUNT) {
         pose::<S, T>(rig, layers, sampled, crowd.pose(lane));
     }
-    crowd.finals::<S::Many>(rig, binding, out)
+    S::call(CrowdFinals { crowd, rig, binding, out })
 }
 
 /// Computes the pose of one character.
@@ -256,5 +257,6 @@ fn blend_layers<S: Simd, T: Playable>(
     for ((out, layer), pose) in list.iter_mut().zip(layers).zip(&*sampled) {
         *out = PoseLayer { pose: pose.blocks(), weight: layer.weight, mask: layer.mask };
     }
-    blend_with::<S>(rig.rest().blocks(), &list[..count], blended.blocks_mut(), false);
+    let (base, layers, out) = (rig.rest().blocks(), &list[..count], blended.blocks_mut());
+    S::call(Blend { base, layers, out, normalized: false });
 }

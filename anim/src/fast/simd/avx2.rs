@@ -51,6 +51,12 @@ impl Simd for Avx2 {
     type Rows = TwoVectors<F8>;
     type Many = F8;
     type Pair = TwoRows<F8>;
+
+    #[inline(always)]
+    fn call<K: Kernel>(part: K) -> K::Output {
+        // SAFETY: only a kernel that runs with these instructions can name this type, see the top of the file.
+        unsafe { run(part) }
+    }
 }
 
 /// Eight numbers in one register.

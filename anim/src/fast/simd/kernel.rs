@@ -22,6 +22,10 @@ pub trait Simd: Copy + Debug + 'static {
     type Many: Many;
     /// Two rows of eight numbers.
     type Pair: RowPair<Row = Self::F8>;
+
+    /// Runs a part of a kernel as a function of its own, with these vectors. For what several kernels share: inlined into each, it
+    /// would be compiled again for each. A call costs some nanoseconds.
+    fn call<K: Kernel>(part: K) -> K::Output;
 }
 
 /// Work written for any set of instructions.

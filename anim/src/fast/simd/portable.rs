@@ -18,6 +18,11 @@ impl Simd for Portable {
     type Rows = TwoVectors<Array8>;
     type Many = Array8;
     type Pair = TwoRows<Array8>;
+
+    #[inline(always)]
+    fn call<K: Kernel>(part: K) -> K::Output {
+        run(part)
+    }
 }
 
 /// Runs `kernel` with these vectors. A separate function, so that callers at another level do not save the registers
