@@ -1,11 +1,12 @@
 //! The camera that is seen: cuts and blends, what it looks at, what is in focus.
 
 use super::StagePlan;
+use super::cues::ShotCue;
 use super::rigid::{position_of, rigid};
 use super::thing::FocusTarget;
 use crate::stage::ease::smooth;
 use crate::stage::scene::{StageCamera, ThingState};
-use crate::stage::time::StageTime;
+use crate::stage::time::{LONGEST, StageTime};
 use glam::{DMat3, DQuat, DVec3};
 
 /// Number of blends that may overlap; further ones are cuts.
@@ -37,6 +38,16 @@ pub(super) fn camera_of(
 ) -> Option<StageCamera> {
     let is_camera = plan.things.get(thing)?.kind == "camera" && thing < things.len();
     is_camera.then(|| view(plan, thing, time, things).rounded(thing))
+}
+
+/// Returns the time of the cut at or before `time`, and the last tick before the next one.
+pub(super) fn uncut_span(plan: &StagePlan, time: StageTime) -> (StageTime, StageTime) {
+    let begun = plan.shots.partition_point(|shot| shot.begin <= time);
+    let (past, coming) = plan.shots.split_at(begun);
+    let is_cut = |shot: &&ShotCue| shot.blend <= StageTime::ZERO;
+    let first = past.iter().rev().find(is_cut).map_or(-LONGEST, |shot| shot.begin);
+    let last = coming.iter().find(is_cut).map_or(LONGEST, |shot| shot.begin - StageTime::from_ticks(1));
+    (first, last)
 }
 
 impl CameraView {

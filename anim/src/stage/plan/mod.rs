@@ -329,6 +329,12 @@ impl StagePlan {
         same_cast.then(|| cameras::camera_of(self, thing, scene.time, &scene.things)).flatten()
     }
 
+    /// Returns the first and the last time of the shots around `time` that follow each other without a cut: within them the camera that is
+    /// seen does not jump.
+    pub fn uncut_span(&self, time: StageTime) -> (StageTime, StageTime) {
+        cameras::uncut_span(self, time)
+    }
+
     /// Allocates a scene for this plan.
     pub fn new_scene(&self) -> StageScene {
         let light = LightState { color: Vec3::ONE, strength: 1.0 };
