@@ -55,7 +55,7 @@ fn vs_fill(corner: Corner) -> Face {
 
 @fragment
 fn fs_fill(in: Face) -> @location(0) vec4f {
-    return vec4f(color_of(in.role) * in.opacity, in.opacity);
+    return vec4f(display_color(color_of(in.role)) * in.opacity, in.opacity);
 }
 
 struct Ends {
@@ -112,5 +112,5 @@ fn fs_line(in: Line) -> @location(0) vec4f {
     let past = max(max(-in.along, in.along - in.length), 0.0);
     let covered = clamp(half_width_of(in.role) + 0.5 - length(vec2f(in.across, past)), 0.0, 1.0);
     let alpha = covered * in.opacity;
-    return vec4f(color_of(in.role) * alpha, alpha);
+    return vec4f(display_color(color_of(in.role)) * alpha, alpha);
 }

@@ -22,5 +22,5 @@ fn fs_ghost(in: Ghost) -> @location(0) vec4f {
     let facing = abs(dot(normal, towards_viewer(in.world)));
     let rim = 1.0 - facing;
     let alpha = in.tint.a * (0.22 + 0.78 * rim * rim);
-    return vec4f(in.tint.rgb * alpha, alpha);
+    return vec4f(display_color(in.tint.rgb) * alpha, alpha);
 }

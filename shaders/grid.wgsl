@@ -67,5 +67,5 @@ fn fs_grid(in: Ground) -> @location(0) vec4f {
     let alpha = strength * fade * grazing * frame.studio.w;
     // The shadow is below the lines.
     let shadow = contact_shadow(in.world);
-    return vec4f(color * alpha, 1.0 - (1.0 - alpha) * (1.0 - shadow));
+    return vec4f(display_color(color) * alpha, 1.0 - (1.0 - alpha) * (1.0 - shadow));
 }

@@ -156,6 +156,17 @@ fn lit_phong(base: vec3f, normal: vec3f, world: vec3f, view: vec3f, occlusion: f
 // Whether a pixel has only one sample.
 override single_sample: bool = false;
 
+// Whether the target takes light before the tone map, which is applied to the mean of sub-frames.
+override linear_light: bool = false;
+
+// The light of a surface in the target.
+fn exposed(light: vec3f) -> vec3f {
+    if linear_light {
+        return light;
+    }
+    return tone_map(light);
+}
+
 // Coverage of the texel, with an edge one pixel wide at the cutoff of a masked surface.
 fn mask_coverage(alpha: f32, cut: f32) -> f32 {
     return clamp((alpha - cut) / max(fwidth(alpha), 1e-4) + 0.5, 0.0, 1.0);
@@ -211,10 +222,10 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
     }
     if frame.studio.z > 0.5 {
         let clay = lit_metallic(vec3f(0.50, 0.485, 0.47), 0.0, 0.62, smooth_normal, in.world, view, 1.0, 0.0);
-        return shown(tone_map(clay), alpha);
+        return shown(exposed(clay), alpha);
     }
     if material.unlit == 1u {
-        return shown(base.rgb, alpha);
+        return shown(display_color(base.rgb), alpha);
     }
     var light: vec3f;
     if material.use_phong == 1u {
@@ -225,12 +236,18 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
         light = lit_metallic(
             base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, in.world, view, occlusion, thin);
     }
-    return shown(tone_map(EXPOSURE * (light + emissive)), alpha);
+    return shown(exposed(EXPOSURE * (light + emissive)), alpha);
 }
 
 // Blended colors are premultiplied by alpha; a mask's alpha only discards samples: in the fixed part of the pipeline where
-// a pixel has several, here where it has one.
+// a pixel has several, here where it has one. A sub-frame discards up to a threshold of its own, so that their mean has the mask's alpha.
 fn shown(color: vec3f, alpha: f32) -> vec4f {
+    if linear_light && material.alpha_mode == 1u {
+        if alpha <= frame.sampling.y {
+            discard;
+        }
+        return vec4f(color, 1.0);
+    }
     if single_sample && material.alpha_mode == 1u && alpha < 0.5 {
         discard;
     }

@@ -36,5 +36,5 @@ fn vs_reference(@builtin(vertex_index) index: u32) -> Point {
 fn fs_reference(in: Point) -> @location(0) vec4f {
     let color = textureSample(picture, picture_sampler, in.place);
     let alpha = color.a * reference.look.x;
-    return vec4f(color.rgb * alpha, alpha);
+    return vec4f(display_color(color.rgb) * alpha, alpha);
 }

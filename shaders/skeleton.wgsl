@@ -77,7 +77,7 @@ fn fs_bone(in: Surface) -> @location(0) vec4f {
     let large = 1.0 - smoothstep(0.06, 0.22, max(width.x, max(width.y, width.z)));
     let flat_face = f32(any(in.edges < vec3f(0.99)));
     color = mix(color, bone_color(in.state) * 0.16, line * large * flat_face * 0.7);
-    return vec4f(color, 1.0);
+    return vec4f(display_color(color), 1.0);
 }
 
 // A dark rim of constant width around every bone, so that it contrasts with light and dark surfaces: the same mesh,
@@ -98,7 +98,7 @@ fn vs_outline(corner: Corner, bone: Bone) -> Surface {
 
 @fragment
 fn fs_outline(in: Surface) -> @location(0) vec4f {
-    return vec4f(bone_color(in.state) * 0.035, 1.0);
+    return vec4f(display_color(bone_color(in.state) * 0.035), 1.0);
 }
 
 struct Line {
@@ -137,5 +137,5 @@ fn vs_line(@builtin(vertex_index) index: u32, bone: Bone) -> Line {
 fn fs_line(in: Line) -> @location(0) vec4f {
     let covered = clamp(in.half_width + 0.5 - abs(in.across), 0.0, 1.0);
     let alpha = covered * in.strength;
-    return vec4f(bone_color(in.state) * alpha, alpha);
+    return vec4f(display_color(bone_color(in.state)) * alpha, alpha);
 }

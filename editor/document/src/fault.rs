@@ -36,6 +36,11 @@ pub trait FaultPlan: Debug + Send + Sync {
         false
     }
 
+    /// Returns whether to lose the graphics device before this sub-frame of a frame that is the mean of several.
+    fn loses_device_in_frame(&self, _sub_frame: u32) -> bool {
+        false
+    }
+
     /// Returns whether drawing pauses when the graphics device is lost too often.
     fn pauses(&self) -> bool {
         true
@@ -67,6 +72,11 @@ impl FaultInjection {
     /// Calls [`FaultPlan::loses_device`].
     pub fn loses_device(&self, frames: u64, moves: bool) -> bool {
         self.0.as_ref().is_some_and(|plan| plan.loses_device(frames, moves))
+    }
+
+    /// Calls [`FaultPlan::loses_device_in_frame`].
+    pub fn loses_device_in_frame(&self, sub_frame: u32) -> bool {
+        self.0.as_ref().is_some_and(|plan| plan.loses_device_in_frame(sub_frame))
     }
 
     /// Calls [`FaultPlan::pauses`].

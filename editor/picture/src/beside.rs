@@ -1,8 +1,10 @@
 //! Views of the scene apart from the viewport: the second view, and small pictures of shots.
 
+use super::gpu::SceneEncoding;
 use super::guard::caught;
-use super::pass::{FrameCommands, PassLayer};
+use super::pass::{FrameCommands, Pass, PassLayer};
 use super::readback;
+use super::scene::Scene;
 use super::stage::{DrawMode, RenderStage};
 use super::target::SceneTarget;
 use super::thumbnail::{Thumbnail, ThumbnailOrder};
@@ -46,6 +48,9 @@ impl RenderStage {
         if !is_possible || plan.is_none() || order.size.contains(&0) {
             return result(None);
         }
+        if !self.encode_as(SceneEncoding::Display) {
+            return result(None);
+        }
         let (look, playback) = self.scene.prepare_thumbnail(order, now);
         let drawn = caught(|| {
             let gpu = self.device.gpu();
@@ -74,6 +79,16 @@ impl RenderStage {
 
     /// Draws the scene as it was prepared into a target of its own.
     fn draw_into(&self, target: &SceneTarget) {
+        let FrameCommands { encoder, before } = self.record(target, |_, _| true);
+        self.device.gpu().queue.submit(before.into_iter().chain([encoder.finish()]));
+    }
+
+    /// Records those passes of the scene that are `wanted`, as it was prepared, into a target of its own.
+    pub(super) fn record(
+        &self,
+        target: &SceneTarget,
+        wanted: impl Fn(&dyn Pass, &Scene) -> bool,
+    ) -> FrameCommands {
         let gpu = self.device.gpu();
         gpu.write_frame(self.scene.uniform());
         let encoder = gpu.device.create_command_encoder(&Default::default());
@@ -82,8 +97,13 @@ impl RenderStage {
         let of_scene = || self.passes.list.iter().filter(|pass| pass.borrow().layer() == PassLayer::Scene);
         of_scene().for_each(|pass| pass.borrow_mut().prepare(&around, &mut commands));
         let mut open = target.begin(&mut commands.encoder);
-        of_scene().for_each(|pass| pass.borrow_mut().draw(&around, &mut open));
+        for pass in of_scene() {
+            let mut pass = pass.borrow_mut();
+            if wanted(&*pass, &self.scene) {
+                pass.draw(&around, &mut open);
+            }
+        }
         drop(open);
-        gpu.queue.submit(commands.before.into_iter().chain([commands.encoder.finish()]));
+        commands
     }
 }

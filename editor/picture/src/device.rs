@@ -2,7 +2,7 @@
 
 use super::connection::Connection;
 use super::error::GraphicsError;
-use super::gpu::{Gpu, SAMPLES};
+use super::gpu::{Gpu, SAMPLES, SceneEncoding};
 use super::losses::{DeviceReports, LossRecord, LossTolerance};
 use super::surface::WindowSurface;
 use dragonfly_document::FaultInjection;
@@ -89,6 +89,8 @@ pub struct Device {
     listeners: Vec<Rc<RefCell<dyn DeviceListener>>>,
     reports: DeviceReports,
     losses: LossRecord,
+    /// The encoding of the scene, also of a device that is created again.
+    encoding: SceneEncoding,
     /// The loss after which a surface is awaited; until it arrives there is no usable device.
     awaits_surface: Option<DeviceLoss>,
 }
@@ -126,6 +128,7 @@ impl Device {
             listeners: Vec::new(),
             reports,
             losses: LossRecord::default(),
+            encoding: SceneEncoding::default(),
             awaits_surface: None,
         })
     }
@@ -144,6 +147,22 @@ impl Device {
     /// The device for creating resources.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
+    }
+
+    /// Draws the scene in `encoding` from now on: the listeners create their resources again where it differs. Unlike a loss, that is planned,
+    /// and takes as long.
+    pub(crate) fn encode_as(&mut self, encoding: SceneEncoding) {
+        if self.encoding == encoding {
+            return;
+        }
+        for listener in &self.listeners {
+            listener.borrow_mut().on_lost();
+        }
+        self.encoding = encoding;
+        self.gpu.set_encoding(encoding);
+        for listener in &self.listeners {
+            listener.borrow_mut().on_reset(&self.gpu);
+        }
     }
 
     /// The parameters the device was created with.
@@ -251,7 +270,8 @@ impl Device {
         }
     }
 
-    fn reload(&self, loss: DeviceLoss) -> DeviceState {
+    fn reload(&mut self, loss: DeviceLoss) -> DeviceState {
+        self.gpu.set_encoding(self.encoding);
         for listener in &self.listeners {
             listener.borrow_mut().on_reset(&self.gpu);
         }

@@ -8,12 +8,36 @@ use super::uniform::FrameUniform;
 /// Format of the scene: drawn in linear light and stored sRGB-encoded, so that 8 bits suffice where the eye
 /// distinguishes most.
 pub const SCENE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// Format of the scene before the tone map, of which sums are made.
+const LINEAR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Format of these sums.
+pub(crate) const SUM_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 /// Format of the depth; reversed: 1 is near.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Number of samples per pixel of the scene, where the adapter supports it; almost every adapter does.
 pub const SAMPLES: u32 = 4;
 /// Format of whole frames without a window; egui needs one that does not encode.
 const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Meaning of the colors in the target of the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SceneEncoding {
+    /// Colors of the display, in [`SCENE_FORMAT`]: each surface is tone-mapped by its own shader.
+    #[default]
+    Display,
+    /// Light before the tone map, in floating-point numbers: several images are added and tone-mapped once.
+    Linear,
+}
+
+impl SceneEncoding {
+    /// Format of the target.
+    pub fn format(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Display => SCENE_FORMAT,
+            Self::Linear => LINEAR_FORMAT,
+        }
+    }
+}
 
 /// A device and its common resources.
 pub struct Gpu {
@@ -25,8 +49,12 @@ pub struct Gpu {
     pub window_format: wgpu::TextureFormat,
     /// Longest side of a texture.
     pub max_side: u32,
-    /// Samples per pixel of the scene; 1 is no smoothing of edges.
+    /// Samples per pixel of the scene in the present encoding; 1 is no smoothing of edges.
     pub samples: u32,
+    encoding: SceneEncoding,
+    display_samples: u32,
+    /// Samples per pixel in [`SceneEncoding::Linear`]; `None` where the device cannot draw in it.
+    linear_samples: Option<u32>,
     /// Samples of an image that a pixel may take along a surface seen at a flat angle; 1 is no anisotropic filtering.
     pub anisotropy: u16,
     /// Memory for the textures of a model.
@@ -50,6 +78,7 @@ impl Gpu {
         let features =
             [SCENE_FORMAT, DEPTH_FORMAT].map(|format| adapter.get_texture_format_features(format).flags);
         let samples = samples(features, most_samples);
+        let linear_samples = linear_samples(adapter, most_samples);
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("dragonfly"),
             required_limits: limits(&adapter.limits()),
@@ -71,12 +100,34 @@ impl Gpu {
             window_format,
             max_side,
             samples,
+            encoding: SceneEncoding::Display,
+            display_samples: samples,
+            linear_samples,
             anisotropy,
             texture_memory,
             frame_layout,
             frame_group,
             frame_buffer,
         })
+    }
+
+    /// Meaning of the colors in the target of the scene.
+    pub fn encoding(&self) -> SceneEncoding {
+        self.encoding
+    }
+
+    /// Returns whether the scene can be drawn in [`SceneEncoding::Linear`].
+    pub fn has_linear_encoding(&self) -> bool {
+        self.linear_samples.is_some()
+    }
+
+    /// Draws the scene in `encoding` from now on. Pipelines and targets made for another one cannot be used with it.
+    pub(crate) fn set_encoding(&mut self, encoding: SceneEncoding) {
+        self.encoding = encoding;
+        self.samples = match encoding {
+            SceneEncoding::Display => self.display_samples,
+            SceneEncoding::Linear => self.linear_samples.unwrap_or(1),
+        };
     }
 
     /// Creates a buffer of `size` bytes to be written later.
@@ -101,6 +152,15 @@ impl Gpu {
         wgpu::MultisampleState { count: self.samples, mask: !0, alpha_to_coverage_enabled }
     }
 
+    /// Returns the target of the scene's pipelines; colors are premultiplied by alpha.
+    pub fn scene_target(&self, blend: bool) -> [Option<wgpu::ColorTargetState>; 1] {
+        [Some(wgpu::ColorTargetState {
+            format: self.encoding.format(),
+            blend: blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+            write_mask: wgpu::ColorWrites::ALL,
+        })]
+    }
+
     /// Creates a pipeline layout with the frame in group 0, followed by `groups`.
     pub fn pipeline_layout(&self, label: &str, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
         let layouts: Vec<Option<&wgpu::BindGroupLayout>> =
@@ -111,15 +171,6 @@ impl Gpu {
             immediate_size: 0,
         })
     }
-}
-
-/// The target of the scene's pipelines; colors are premultiplied by alpha.
-pub fn scene_target(blend: bool) -> [Option<wgpu::ColorTargetState>; 1] {
-    [Some(wgpu::ColorTargetState {
-        format: SCENE_FORMAT,
-        blend: blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-        write_mask: wgpu::ColorWrites::ALL,
-    })]
 }
 
 /// The depth test of the scene: nearer surfaces win; with `write` they also hide later ones.
@@ -158,6 +209,15 @@ fn check(adapter: &wgpu::Adapter) -> Result<(), GraphicsError> {
 pub fn samples(formats: [wgpu::TextureFormatFeatureFlags; 2], most: u32) -> u32 {
     let supported = most >= SAMPLES && formats.iter().all(|flags| flags.sample_count_supported(SAMPLES));
     if supported { SAMPLES } else { 1 }
+}
+
+/// Returns the number of samples per pixel for [`SceneEncoding::Linear`]; `None` where a format of it cannot be drawn in.
+fn linear_samples(adapter: &wgpu::Adapter, most: u32) -> Option<u32> {
+    let features = |format| adapter.get_texture_format_features(format);
+    let is_target = |format| features(format).allowed_usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
+    let blends = features(LINEAR_FORMAT).flags.contains(wgpu::TextureFormatFeatureFlags::BLENDABLE);
+    let flags = [LINEAR_FORMAT, DEPTH_FORMAT].map(|format| features(format).flags);
+    (blends && is_target(LINEAR_FORMAT) && is_target(SUM_FORMAT)).then(|| samples(flags, most))
 }
 
 /// Anisotropy is expensive on a software adapter, and not safe: Mesa's llvmpipe visits every texel of the ellipse

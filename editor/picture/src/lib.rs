@@ -13,6 +13,7 @@
 //!   └ pass/: the passes of the scene, then those of the window; the list is `pass::all`
 //! ```
 
+mod accumulation;
 mod appearance;
 mod appearance_sender;
 mod around;
@@ -59,6 +60,7 @@ mod worker;
 #[cfg(all(unix, not(target_vendor = "apple")))]
 mod x11;
 
+pub use accumulation::{FILTER_RADIUS, FrameSampling, MOST_SAMPLES, SampledFrame, SubFrame, blackman_harris};
 pub use appearance::{AnyAppearance, Appearance, Appearances};
 pub use appearance_sender::AppearanceSender;
 pub use around::{AroundClip, SceneAround};

@@ -1,13 +1,31 @@
 //! Reading images back from the device.
 
 use super::gpu::Gpu;
-use image::RgbaImage;
+use image::{Rgba32FImage, RgbaImage};
 
 /// Reads the pixels of `texture`, four bytes each, in RGBA order; blocks until the device is done. Panics, as wgpu
 /// does, when the device is lost during the wait, so it must be called guarded.
 pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, String> {
+    let mut pixels = read_bytes(gpu, texture, 4)?;
+    if matches!(texture.format(), wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb) {
+        pixels.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
+    }
+    let picture = RgbaImage::from_raw(texture.width(), texture.height(), pixels);
+    picture.ok_or_else(|| "the image has the wrong size".to_owned())
+}
+
+/// Does the same for pixels of four 32-bit floating-point numbers.
+pub(crate) fn read_light(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Rgba32FImage, String> {
+    let bytes = read_bytes(gpu, texture, 16)?;
+    let numbers = bytes.as_chunks::<4>().0.iter().map(|&number| f32::from_ne_bytes(number)).collect();
+    let picture = Rgba32FImage::from_raw(texture.width(), texture.height(), numbers);
+    picture.ok_or_else(|| "the image has the wrong size".to_owned())
+}
+
+/// Reads the rows of `texture`, with `size` bytes for a pixel.
+fn read_bytes(gpu: &Gpu, texture: &wgpu::Texture, size: u32) -> Result<Vec<u8>, String> {
     let (width, height) = (texture.width(), texture.height());
-    let row = width * 4;
+    let row = width * size;
     let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("readback"),
@@ -41,9 +59,5 @@ pub fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<RgbaImage, String> {
     for line in bytes.chunks_exact(padded as usize) {
         pixels.extend_from_slice(&line[..row as usize]);
     }
-    drop(bytes);
-    if matches!(texture.format(), wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb) {
-        pixels.chunks_exact_mut(4).for_each(|pixel| pixel.swap(0, 2));
-    }
-    RgbaImage::from_raw(width, height, pixels).ok_or_else(|| "the image has the wrong size".to_owned())
+    Ok(pixels)
 }

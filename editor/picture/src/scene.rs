@@ -2,6 +2,7 @@
 //!
 //! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
+use super::accumulation::{LensShift, SubFrame, moved_image};
 use super::appearance::Appearances;
 use super::around::PosedAround;
 use super::batch::DrawBatch;
@@ -56,6 +57,10 @@ pub struct Scene {
     uniform: FrameUniform,
     /// Whether handles, lines and helpers are left out of the frame that is prepared.
     is_plain: bool,
+    /// The sub-frame that is prepared, where a frame is the mean of several.
+    sub_frame: Option<SubFrame>,
+    /// Its point of the lens.
+    lens: Option<LensShift>,
 }
 
 impl Scene {
@@ -77,6 +82,8 @@ impl Scene {
             still: Vec::new(),
             uniform: bytemuck::Zeroable::zeroed(),
             is_plain: false,
+            sub_frame: None,
+            lens: None,
         }
     }
 
@@ -154,6 +161,16 @@ impl Scene {
         &self.seen
     }
 
+    /// The sub-frame that was prepared last; `None` where a frame is drawn once.
+    pub fn sub_frame(&self) -> Option<&SubFrame> {
+        self.sub_frame.as_ref()
+    }
+
+    /// Sets the sub-frame that is prepared next.
+    pub(crate) fn set_sub_frame(&mut self, sub_frame: Option<SubFrame>) {
+        self.sub_frame = sub_frame;
+    }
+
     /// Returns what is drawn: the model, or the models of the things of a script.
     pub fn draw_sets(&self) -> impl Iterator<Item = &DrawSet> + Clone {
         let model = self.model_in_view().map(PosedModel::draws);
@@ -212,6 +229,7 @@ impl Scene {
         let through =
             self.cast.as_ref().and_then(|cast| cast.camera(&self.look.through, size.x / size.y.max(1.0)));
         self.seen = through.unwrap_or(self.camera);
+        self.lens = self.lens_shift();
         let (eye, back) = (self.seen.eye(), self.seen.back());
         if let Some(model) = &mut self.model {
             if self.cast.is_none() {
@@ -294,6 +312,22 @@ impl Scene {
         self.seen.clip_from_view(size.x / size.y.max(1.0), bounds) * self.seen.view_from_world()
     }
 
+    /// Returns the point of the lens of the sub-frame; `None` for a camera that has everything in focus.
+    fn lens_shift(&self) -> Option<LensShift> {
+        let point = self.sub_frame?.lens;
+        let camera = self.cast.as_ref()?.stage_camera(&self.look.through)?;
+        LensShift::new(&camera, point)
+    }
+
+    /// Transforms scene space to clip space as the frame is drawn, or the sub-frame.
+    fn drawn_clip_from_world(&self, bounds: &Sphere) -> Mat4 {
+        let Some(sub_frame) = self.sub_frame else { return self.clip_from_world(bounds) };
+        let size = self.size();
+        let clip_from_view = self.seen.clip_from_view(size.x / size.y.max(1.0), bounds);
+        let shear = self.lens.map_or(Mat4::IDENTITY, |lens| lens.shear());
+        moved_image(sub_frame.pixel, size) * clip_from_view * shear * self.seen.view_from_world()
+    }
+
     /// The line of sight through a pixel of the window, and that pixel within the viewport; `None` outside of it.
     pub fn ray(&self, position: [f32; 2]) -> Option<(CameraRay, Vec2)> {
         let [x, y, ..] = self.look.viewport;
@@ -314,7 +348,10 @@ impl Scene {
         let bounds = self.drawn_bounds();
         let size = self.size().max(Vec2::ONE);
         let eye = match camera.projection {
-            Projection::Perspective => camera.eye().extend(1.0),
+            Projection::Perspective => {
+                let middle = camera.eye();
+                self.lens.map_or(middle, |lens| middle + lens.in_scene(camera)).extend(1.0)
+            }
             Projection::Orthographic => camera.back().extend(0.0),
         };
         let (sin, cos) = camera.yaw.sin_cos();
@@ -333,10 +370,13 @@ impl Scene {
         let (contact, spot_count) = self.contact(self.bounds().sphere.radius);
         let mut lights = [LightUniform::default(); LIGHTS];
         let light_count = self.cast.as_ref().map_or(0, |cast| cast.write_lights(&mut lights));
+        let sampling = self.sub_frame.map_or(Vec4::ZERO, |sub_frame| {
+            Vec4::new(1.0, sub_frame.threshold, sub_frame.light.x, sub_frame.light.y)
+        });
         // A sun fills the shadows less than the lamps of a studio do.
         let ambient = if light_count > 0 { 0.5 } else { 1.0 };
         FrameUniform {
-            clip_from_world: self.clip_from_world(&bounds),
+            clip_from_world: self.drawn_clip_from_world(&bounds),
             view_from_world: camera.view_from_world(),
             eye,
             size: Vec4::new(size.x, size.y, 1.0 / size.x, 1.0 / size.y),
@@ -347,6 +387,7 @@ impl Scene {
             grid: Vec4::new(camera.target.x, camera.target.z, radius, spacing),
             bone_color: Vec3::from(look.bone_color).extend(1.0),
             accent: Vec3::from(look.accent).extend(1.0),
+            sampling,
             contact,
             counts: Vec4::new(light_count as f32, ambient, spot_count as f32, ground),
             lights,

@@ -20,6 +20,7 @@ macro_rules! part {
 
 const FRAME: ShaderFile = part!("common/frame.wgsl");
 const COLOR: ShaderFile = part!("common/color.wgsl");
+const DISPLAY: ShaderFile = part!("common/display.wgsl");
 const STUDIO: ShaderFile = part!("common/studio.wgsl");
 const POSE: ShaderFile = part!("common/pose.wgsl");
 const VERTEX: ShaderFile = part!("common/vertex.wgsl");
@@ -39,17 +40,19 @@ shaders! {
     /// The background gradient.
     BACKGROUND = "background": FRAME COLOR;
     /// The reference picture.
-    REFERENCE = "reference": FRAME;
+    REFERENCE = "reference": FRAME COLOR DISPLAY;
     /// Skinned and lit surfaces.
-    MODEL = "model": FRAME COLOR STUDIO POSE VERTEX;
+    MODEL = "model": FRAME COLOR DISPLAY STUDIO POSE VERTEX;
     /// Surfaces of ghosts.
-    GHOST = "ghost": FRAME POSE VERTEX;
+    GHOST = "ghost": FRAME COLOR DISPLAY POSE VERTEX;
     /// The ground grid.
-    GRID = "grid": FRAME;
+    GRID = "grid": FRAME COLOR DISPLAY;
     /// The bones.
-    SKELETON = "skeleton": FRAME STUDIO;
+    SKELETON = "skeleton": FRAME COLOR DISPLAY STUDIO;
     /// The controls of the scene.
-    CONTROLS = "controls": FRAME;
+    CONTROLS = "controls": FRAME COLOR DISPLAY;
+    /// Adding sub-frames, and developing their sum.
+    ACCUMULATE = "accumulate": COLOR;
     /// Copying the scene into the window.
     COMPOSITE = "composite": COLOR;
     /// Computing mip levels.

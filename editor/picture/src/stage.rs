@@ -4,8 +4,10 @@
 //! without a window does the same. Everything that touches the device is guarded: a panic there means that the device
 //! is lost.
 
+use super::accumulation::FrameSum;
 use super::device::{Device, DeviceLoss, DeviceParameters, DeviceState};
 use super::error::GraphicsError;
+use super::gpu::SceneEncoding;
 use super::guard::caught;
 use super::losses::LossTolerance;
 use super::pass::{self, FrameCommands, Pass, PassLayer, Passes, SharedPass, Surroundings};
@@ -73,6 +75,8 @@ pub struct RenderStage {
     target: Option<SceneTarget>,
     /// The second view.
     pub(super) second: Option<SceneTarget>,
+    /// The sum of sub-frames, where a frame is the mean of several.
+    pub(super) sum: Option<FrameSum>,
     pub(super) window_size: [u32; 2],
     scene_changed: bool,
     window_changed: bool,
@@ -103,6 +107,7 @@ impl RenderStage {
             passes,
             target: None,
             second: None,
+            sum: None,
             frame: None,
             window_size: [0, 0],
             scene_changed: true,
@@ -207,8 +212,8 @@ impl RenderStage {
         self.scene_changed = true;
     }
 
-    /// Checks the device, computes the scene for `now` and opens a frame.
-    pub fn open(&mut self, now: Instant) -> FrameOpening {
+    /// Checks the device. Returns the result of opening a frame if nothing can be drawn.
+    pub(super) fn check(&mut self, now: Instant) -> Option<FrameOpening> {
         self.frame = None;
         match self.device.check_device_state(now) {
             DeviceState::Working => {}
@@ -216,12 +221,32 @@ impl RenderStage {
             DeviceState::NeedsSurface(instance) => {
                 self.forget_textures();
                 self.events.push(DeviceEvent::NeedsSurface(instance));
-                return FrameOpening::Nothing;
+                return Some(FrameOpening::Nothing);
             }
-            DeviceState::AwaitsSurface => return FrameOpening::Nothing,
-            DeviceState::Gone(error) => return FrameOpening::Gone(error),
+            DeviceState::AwaitsSurface => return Some(FrameOpening::Nothing),
+            DeviceState::Gone(error) => return Some(FrameOpening::Gone(error)),
         }
-        if self.mode == DrawMode::Nothing || self.window_size.contains(&0) {
+        let is_possible = self.mode != DrawMode::Nothing && !self.window_size.contains(&0);
+        (!is_possible).then_some(FrameOpening::Nothing)
+    }
+
+    /// Draws the scene in `encoding` from now on. Returns `false` when the device counts as lost.
+    pub(super) fn encode_as(&mut self, encoding: SceneEncoding) -> bool {
+        if self.device.gpu().encoding() == encoding {
+            return true;
+        }
+        (self.target, self.second, self.sum) = (None, None, None);
+        self.scene_changed = true;
+        let encoded = caught(|| self.device.encode_as(encoding));
+        self.keep(encoded.map(|()| None))
+    }
+
+    /// Checks the device, computes the scene for `now` and opens a frame.
+    pub fn open(&mut self, now: Instant) -> FrameOpening {
+        if let Some(stopped) = self.check(now) {
+            return stopped;
+        }
+        if !self.encode_as(SceneEncoding::Display) {
             return FrameOpening::Nothing;
         }
         let draws_scene = self.mode == DrawMode::All && (self.scene_changed || self.moves(now));
@@ -342,7 +367,7 @@ impl RenderStage {
 
     /// Drops the textures of a lost device.
     fn forget_textures(&mut self) {
-        (self.target, self.second) = (None, None);
+        (self.target, self.second, self.sum) = (None, None, None);
         self.stand_in = None;
     }
 

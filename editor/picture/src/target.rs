@@ -1,6 +1,6 @@
 //! The textures that the scene is drawn into: as large as the viewport, created again when its size changes.
 
-use super::gpu::{DEPTH_FORMAT, Gpu, SCENE_FORMAT};
+use super::gpu::{DEPTH_FORMAT, Gpu};
 
 /// Multisampled color, depth, and the color that the samples are resolved to. With one sample per pixel there is nothing to
 /// resolve.
@@ -15,6 +15,7 @@ pub struct SceneTarget {
 impl SceneTarget {
     /// Creates textures of `size` pixels, both sides positive.
     pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
+        let format = gpu.encoding().format();
         let texture = |label, format, sample_count, usage| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -30,11 +31,10 @@ impl SceneTarget {
         let view = |texture: &wgpu::Texture| texture.create_view(&Default::default());
         let nothing = wgpu::TextureUsages::empty();
         let readable = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
-        let resolved = texture("scene", SCENE_FORMAT, 1, readable);
+        let resolved = texture("scene", format, 1, readable);
         Self {
             size,
-            samples: (gpu.samples > 1)
-                .then(|| view(&texture("scene samples", SCENE_FORMAT, gpu.samples, nothing))),
+            samples: (gpu.samples > 1).then(|| view(&texture("scene samples", format, gpu.samples, nothing))),
             depth: view(&texture("scene depth", DEPTH_FORMAT, gpu.samples, nothing)),
             view: view(&resolved),
             resolved,

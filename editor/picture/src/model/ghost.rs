@@ -6,7 +6,7 @@ use super::groups::DrawGroups;
 use super::pipeline::ModelPipelines;
 use super::recorder::DrawRecorder;
 use crate::ghosts::GhostSkins;
-use crate::gpu::{Gpu, scene_depth, scene_target};
+use crate::gpu::{Gpu, scene_depth};
 use crate::shaders;
 use crate::uniform::{Affine, DrawInstance};
 use dragonfly_document::LoadedModel;
@@ -167,7 +167,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, front_face: wgpu::FrontFac
             module: &module,
             entry_point: Some("fs_ghost"),
             compilation_options: Default::default(),
-            targets: &scene_target(true),
+            targets: &gpu.scene_target(true),
         }),
         multiview_mask: None,
         cache: None,

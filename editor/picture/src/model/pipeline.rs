@@ -1,7 +1,7 @@
 //! Pipelines for drawing surfaces.
 
 use super::geometry::VERTICES;
-use crate::gpu::{Gpu, scene_depth, scene_target};
+use crate::gpu::{Gpu, SceneEncoding, scene_depth};
 use crate::shaders;
 use crate::uniform::Affine;
 use std::collections::HashMap;
@@ -106,6 +106,7 @@ fn pipeline(
     layout: &wgpu::PipelineLayout,
     kind: PipelineKind,
 ) -> wgpu::RenderPipeline {
+    let flag = |is_set| f64::from(u8::from(is_set));
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("model"),
         layout: Some(layout),
@@ -130,10 +131,13 @@ fn pipeline(
             module,
             entry_point: Some("fs_model"),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("single_sample", f64::from(u8::from(gpu.samples == 1)))],
+                constants: &[
+                    ("single_sample", flag(gpu.samples == 1)),
+                    ("linear_light", flag(gpu.encoding() == SceneEncoding::Linear)),
+                ],
                 ..Default::default()
             },
-            targets: &scene_target(kind.blend),
+            targets: &gpu.scene_target(kind.blend),
         }),
         multiview_mask: None,
         cache: None,

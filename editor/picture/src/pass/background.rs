@@ -3,6 +3,7 @@
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
+use crate::scene::Scene;
 use crate::shaders;
 
 /// Draws the background gradient.
@@ -31,6 +32,10 @@ impl Pass for BackgroundPass {
 
     fn layer(&self) -> PassLayer {
         PassLayer::Scene
+    }
+
+    fn is_backdrop(&self, _: &Scene) -> bool {
+        true
     }
 
     fn prepare(&mut self, _: &Surroundings<'_>, _: &mut FrameCommands) {}

@@ -4,7 +4,7 @@
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gizmo::{GizmoRole, GizmoVertex};
-use crate::gpu::{DEPTH_FORMAT, Gpu, scene_target, uniform_binding};
+use crate::gpu::{DEPTH_FORMAT, Gpu, uniform_binding};
 use crate::message::Look;
 use crate::shaders;
 
@@ -175,7 +175,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, shape: ControlPrimitive) 
             module: &module,
             entry_point: Some(if shape == ControlPrimitive::Line { "fs_line" } else { "fs_fill" }),
             compilation_options: Default::default(),
-            targets: &scene_target(true),
+            targets: &gpu.scene_target(true),
         }),
         multiview_mask: None,
         cache: None,

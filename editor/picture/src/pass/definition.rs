@@ -1,7 +1,7 @@
 //! A render pass, and what it may read and add in a frame.
 
 use crate::device::DeviceListener;
-use crate::gpu::{Gpu, scene_depth, scene_target};
+use crate::gpu::{Gpu, scene_depth};
 use crate::scene::Scene;
 
 /// Target of a pass.
@@ -34,6 +34,11 @@ pub trait Pass: DeviceListener {
 
     /// Target of the pass. Passes of the scene come before those of the window.
     fn layer(&self) -> PassLayer;
+
+    /// Returns whether everything else is drawn over this pass, which looks the same in every sub-frame: its colors are those of the display.
+    fn is_backdrop(&self, _scene: &Scene) -> bool {
+        false
+    }
 
     /// Writes this frame's data to the device, before anything is drawn.
     fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut FrameCommands);
@@ -75,7 +80,7 @@ pub(super) fn scene_pipeline(
             module,
             entry_point: Some(fragment),
             compilation_options: Default::default(),
-            targets: &scene_target(blend),
+            targets: &gpu.scene_target(blend),
         }),
         multiview_mask: None,
         cache: None,

@@ -3,7 +3,8 @@
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::appearance::Appearance;
 use crate::device::DeviceListener;
-use crate::gpu::{Gpu, scene_depth, scene_target};
+use crate::gpu::{Gpu, scene_depth};
+use crate::scene::Scene;
 use crate::shaders;
 use bytemuck::{Pod, Zeroable};
 use dragonfly_document::DecodedImage;
@@ -168,7 +169,7 @@ impl DeviceParts {
                 module: &module,
                 entry_point: Some("fs_reference"),
                 compilation_options: Default::default(),
-                targets: &scene_target(true),
+                targets: &gpu.scene_target(true),
             }),
             multiview_mask: None,
             cache: None,
@@ -233,6 +234,11 @@ impl Pass for ReferencePass {
 
     fn layer(&self) -> PassLayer {
         PassLayer::Scene
+    }
+
+    fn is_backdrop(&self, scene: &Scene) -> bool {
+        let shown = scene.appearances.get::<ReferenceAppearance>();
+        shown.is_some_and(|shown| matches!(shown.place, ReferencePlace::Camera { .. }))
     }
 
     fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
