@@ -1,5 +1,6 @@
 //! Rendering images without a window, with the same scene, passes and frames.
 
+use super::accumulation::{FrameSampling, SampledFrame};
 use super::control::{LineAppearance, LineLook};
 use super::device::DeviceParameters;
 use super::error::GraphicsError;
@@ -7,12 +8,13 @@ use super::message::{Look, Shading};
 use super::stage::{FrameOpening, RenderStage};
 use super::titles::TitleDrawer;
 use crate::camera::Camera;
+use crate::cast::ThroughCamera;
 use crate::playback::PlaybackClock;
 use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::{LoadedModel, SceneView};
-use image::RgbaImage;
+use image::{Rgba32FImage, RgbaImage};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -39,6 +41,8 @@ pub struct PictureSettings {
     pub skeleton: bool,
     /// Whether the ground grid is drawn.
     pub grid: bool,
+    /// Sub-frames of which the image is the mean.
+    pub sampling: FrameSampling,
     /// Everything else about the look; its viewport, background, skeleton and grid are ignored.
     pub look: Look,
 }
@@ -58,6 +62,7 @@ impl Default for PictureSettings {
             background: None,
             skeleton: false,
             grid: true,
+            sampling: FrameSampling::default(),
             look: Look { shading: Shading::Material, ..Look::default() },
         }
     }
@@ -129,6 +134,18 @@ impl Studio {
         self.draw(settings)
     }
 
+    /// Renders the light of an image before the tone map: linear and multiplied by alpha, as OpenEXR files contain it. Otherwise as by
+    /// [`Self::render`].
+    pub fn render_linear(
+        &mut self,
+        loaded: &Arc<LoadedModel>,
+        settings: &PictureSettings,
+    ) -> Result<Rgba32FImage, GraphicsError> {
+        self.check_size(settings)?;
+        self.show(loaded);
+        self.draw_linear(settings)
+    }
+
     /// Renders an image of the scene of a script, with its titles, otherwise as by [`Self::render`]. The take is ignored. A scene without
     /// a plan is empty.
     pub fn render_scene(
@@ -137,6 +154,32 @@ impl Studio {
         settings: &PictureSettings,
     ) -> Result<RgbaImage, GraphicsError> {
         self.check_size(settings)?;
+        self.show_scene(scene);
+        let mut picture = self.draw(settings)?;
+        if let Some(cast) = self.stage.scene.cast() {
+            self.titles.draw(cast, &mut picture);
+        }
+        Ok(picture)
+    }
+
+    /// Renders the light of the scene of a script as by [`Self::render_linear`], with its titles.
+    pub fn render_scene_linear(
+        &mut self,
+        scene: &Arc<SceneView>,
+        settings: &PictureSettings,
+    ) -> Result<Rgba32FImage, GraphicsError> {
+        self.check_size(settings)?;
+        self.show_scene(scene);
+        let mut picture = self.draw_linear(settings)?;
+        if let Some(cast) = self.stage.scene.cast().filter(|cast| !cast.state().titles.is_empty()) {
+            let mut titles = RgbaImage::new(picture.width(), picture.height());
+            self.titles.draw(cast, &mut titles);
+            put_over(&titles, &mut picture);
+        }
+        Ok(picture)
+    }
+
+    fn show_scene(&mut self, scene: &Arc<SceneView>) {
         let same = |shown: &StudioSubject| match shown {
             StudioSubject::Scene(shown) => Arc::ptr_eq(shown, scene),
             StudioSubject::Model(_) => false,
@@ -148,11 +191,6 @@ impl Studio {
             let lines = lines.map(|line| LineLook::of_line(line, 0.0)).collect();
             self.stage.scene.appearances.set(LineAppearance { lines, ..LineAppearance::default() });
         }
-        let mut picture = self.draw(settings)?;
-        if let Some(cast) = self.stage.scene.cast() {
-            self.titles.draw(cast, &mut picture);
-        }
-        Ok(picture)
     }
 
     fn check_size(&mut self, settings: &PictureSettings) -> Result<(), GraphicsError> {
@@ -165,15 +203,57 @@ impl Studio {
     fn draw(&mut self, settings: &PictureSettings) -> Result<RgbaImage, GraphicsError> {
         let now = Instant::now();
         self.arrange(settings, now);
+        if settings.sampling.count() > 1 {
+            let frame = self.sampled_frame(settings)?;
+            return self.attempt(|stage| stage.accumulate(&frame, now), RenderStage::read_accumulated);
+        }
+        let draw = |stage: &mut RenderStage| {
+            stage.touch_scene();
+            stage.whole_frame(now)
+        };
+        self.attempt(draw, |stage| stage.read_scene().map(finish))
+    }
+
+    fn draw_linear(&mut self, settings: &PictureSettings) -> Result<Rgba32FImage, GraphicsError> {
+        let now = Instant::now();
+        self.arrange(settings, now);
+        let frame = self.sampled_frame(settings)?;
+        self.attempt(|stage| stage.accumulate(&frame, now), RenderStage::read_accumulated_light)
+    }
+
+    /// Returns the frame of the scene as it was arranged.
+    fn sampled_frame(&mut self, settings: &PictureSettings) -> Result<SampledFrame, GraphicsError> {
+        let device = self.stage.device();
+        if !device.gpu().has_linear_encoding() {
+            let lack = "draw into floating-point textures, which several samples of a frame need";
+            return Err(GraphicsError::Unsuitable { adapter: device.adapter_name(), lack });
+        }
+        let scene = &self.stage.scene;
+        let time = StageTime::from_seconds(scene.playback.anchor_time);
+        let Some(cast) = scene.cast() else { return Ok(SampledFrame::new(settings.sampling, time)) };
+        // A time of single precision means the frame that it is nearest to.
+        let time = settings.moment.unwrap_or_else(|| cast.plan().rate().time_of(time.seconds()));
+        let frame = SampledFrame::new(settings.sampling, time);
+        Ok(match scene.look.through {
+            ThroughCamera::Shot => frame.within(cast.plan().uncut_span(time)),
+            ThroughCamera::Free | ThroughCamera::Of(_) => frame,
+        })
+    }
+
+    /// Draws until the device is not lost on the way, and reads what was drawn.
+    fn attempt<T>(
+        &mut self,
+        draw: impl Fn(&mut RenderStage) -> FrameOpening,
+        read: impl Fn(&mut RenderStage) -> Result<T, String>,
+    ) -> Result<T, GraphicsError> {
         let errors = self.stage.device().errors();
         let mut trouble = String::new();
         for _ in 0..3 {
-            self.stage.touch_scene();
-            match self.stage.whole_frame(now) {
-                FrameOpening::Frame => match self.stage.read_scene() {
+            match draw(&mut self.stage) {
+                FrameOpening::Frame => match read(&mut self.stage) {
                     Ok(picture) => {
                         let new = self.stage.device().errors() - errors;
-                        return if new == 0 { Ok(finish(picture)) } else { Err(GraphicsError::Refused(new)) };
+                        return if new == 0 { Ok(picture) } else { Err(GraphicsError::Refused(new)) };
                     }
                     Err(error) => trouble = error,
                 },
@@ -273,6 +353,17 @@ fn finish(mut picture: RgbaImage) -> RgbaImage {
         }
     }
     picture
+}
+
+/// Puts an image with straight alpha over light that is multiplied by alpha.
+fn put_over(image: &RgbaImage, light: &mut Rgba32FImage) {
+    for (over, pixel) in image.pixels().zip(light.pixels_mut()).filter(|(over, _)| over.0[3] > 0) {
+        let alpha = f32::from(over.0[3]) / 255.0;
+        let [red, green, blue, _] = over.0.map(|value| linear(f32::from(value) / 255.0) * alpha);
+        for (value, new) in pixel.0.iter_mut().zip([red, green, blue, alpha]) {
+            *value = new + *value * (1.0 - alpha);
+        }
+    }
 }
 
 /// Decodes a value from the sRGB curve.
