@@ -189,6 +189,8 @@ fn wrong_arguments_exit_with_2_and_are_named() {
         (vec!["render", "demo:", "--size", "0x5", "-o", "x.png"], "1 to"),
         (vec!["render", "demo:", "--size", "large", "-o", "x.png"], "1280x720"),
         (vec!["render", "demo:", "--background", "blue", "-o", "x.png"], "RRGGBB"),
+        (vec!["render", "demo:", "--samples", "0", "-o", "x.png"], "1..=1024"),
+        (vec!["render", "demo:", "--shutter", "400", "-o", "x.png"], "0 to 360"),
         (vec!["info"], "FILE"),
         (vec!["info", "demo:", "--colour"], "--colour"),
     ] {

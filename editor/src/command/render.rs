@@ -6,7 +6,7 @@ use super::scene::{self, FrameRange, ScriptChoice, ShotChoice};
 use super::time_argument::TimeArgument;
 use super::{Failure, output, quiet, tell};
 use dragonfly_document::LoadedModel;
-use dragonfly_picture::{GraphicsError, PictureSettings, Studio};
+use dragonfly_picture::{FrameSampling, GraphicsError, MOST_SAMPLES, PictureSettings, Studio};
 use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,7 +18,8 @@ Examples:\n  dragonfly render demo: -o dragonfly.png\n  \
 dragonfly render Fox.glb --take Run --time 0.35 --yaw 60 --pitch 10 --size 1920x1080 -o run.png\n  \
 dragonfly render Fox.glb --skeleton --background 00000000 -o - | display\n  \
 dragonfly render duel.xml --time 2.5 --camera close -o duel.png\n  \
-dragonfly render duel.xml --frames 0..47 -o frames/duel.png")]
+dragonfly render duel.xml --frames 0..47 -o frames/duel.png\n  \
+dragonfly render duel.xml --frames 0..47 --samples 16 --shutter 180 -o frames/duel.png")]
 pub(super) struct RenderArguments {
     #[command(flatten)]
     file: File,
@@ -60,11 +61,29 @@ pub(super) struct RenderView {
     /// Background color with opacity; 00000000 is transparent [default: the editor's]
     #[arg(long, value_name = "RRGGBBAA")]
     pub background: Option<Color>,
+    /// Number of images of which each frame is the mean, for smooth edges, motion blur and depth of field; 16 is good, 64 is final
+    #[arg(long, value_name = "N", value_parser = samples(), default_value = "1")]
+    pub samples: u32,
+    /// Shutter angle of the motion blur of several samples, degrees from 0 to 360; 0 is none
+    #[arg(long, value_name = "DEG", value_parser = shutter, default_value = "180")]
+    pub shutter: f32,
+}
+
+/// Returns the parser of `--samples`.
+fn samples() -> clap::builder::RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES))
+}
+
+/// Reads the angle of a shutter.
+fn shutter(text: &str) -> Result<f32, String> {
+    let angle = finite(text)?;
+    if (0.0..=360.0).contains(&angle) { Ok(angle) } else { Err("must be from 0 to 360".to_owned()) }
 }
 
 impl Default for RenderView {
     fn default() -> Self {
-        Self { size: None, yaw: 35.0, pitch: 15.0, skeleton: false, background: None }
+        let FrameSampling { samples, shutter, .. } = FrameSampling::default();
+        Self { size: None, yaw: 35.0, pitch: 15.0, skeleton: false, background: None, samples, shutter }
     }
 }
 
@@ -84,6 +103,11 @@ impl RenderView {
             skeleton: self.skeleton,
             // The ground grid would cover half of a model on a transparent background.
             grid: self.background.is_none(),
+            sampling: FrameSampling {
+                samples: self.samples,
+                shutter: self.shutter,
+                ..FrameSampling::default()
+            },
             ..PictureSettings::default()
         }
     }

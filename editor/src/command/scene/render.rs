@@ -6,7 +6,7 @@ use crate::command::time_argument::TimeArgument;
 use crate::command::{Failure, output, tell};
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::time::StageTime;
-use dragonfly_picture::{Look, PictureSettings, ThroughCamera};
+use dragonfly_picture::{FrameSampling, Look, PictureSettings, ThroughCamera};
 use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -91,7 +91,8 @@ pub(in crate::command) fn render(script: &Path, order: &RenderOrder<'_>) -> Resu
     let view = Arc::new(scene.view());
     let settings = order.view.settings(scene.script.size());
     let look = Look { through, ..settings.look.clone() };
-    let settings = PictureSettings { look, ..settings };
+    let sampling = FrameSampling { rate: scene.plan.rate(), ..settings.sampling };
+    let settings = PictureSettings { look, sampling, ..settings };
     if order.frames.is_some() && order.output == Path::new("-") {
         return Err(Failure::input("--frames", "several images cannot be written to standard output"));
     }
