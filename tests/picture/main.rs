@@ -1,5 +1,6 @@
 //! Tests of the graphics crate, one module for each guarantee.
 
+mod accumulation;
 mod between;
 mod camera;
 mod complaints;

@@ -10,6 +10,7 @@ mod picking;
 mod posing;
 mod second_view;
 mod shapes;
+mod sub_frames;
 mod thumbnail;
 
 use dragonfly_anim::stage::script::{ScriptContext, StageScript};
