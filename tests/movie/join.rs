@@ -7,7 +7,9 @@ use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mutate::Mutator;
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
-use dragonfly_movie::{GROUP, MovieSettings, MovieTarget, join_movies, movie_parts};
+use dragonfly_movie::{GROUP, MovieSettings, MovieTarget, has_movie, join_movies, movie_parts, part_frames};
+use dragonfly_store::RealFiles;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -25,7 +27,7 @@ fn parts(folder: &Folder, count: u64, length: u64, settings: &MovieSettings) -> 
         write_disc("mp4", &MovieSettings { first, ..settings.clone() }, &path, count, false);
         path
     };
-    movie_parts(count, length).into_iter().map(write).collect()
+    movie_parts(0..count, length).into_iter().map(write).collect()
 }
 
 fn join(parts: &[PathBuf], count: u64, folder: &Folder) -> Result<Vec<u8>, String> {
@@ -37,15 +39,65 @@ fn join(parts: &[PathBuf], count: u64, folder: &Folder) -> Result<Vec<u8>, Strin
 #[test]
 fn parts_cover_every_frame_once_and_begin_at_groups() {
     for (frames, length) in [(0, 1), (1, 0), (193, 48), (200, 50), (96, 96), (1000, u64::MAX)] {
-        let parts = movie_parts(frames, length);
-        let mut next = 0;
-        for (first, count) in parts {
-            assert_eq!((first, first % GROUP), (next, 0));
-            assert!(count > 0);
-            next += count;
+        for start in [0, 31, 48, 500] {
+            let end = start.max(frames);
+            let parts = movie_parts(start..end, length);
+            let mut next = start;
+            for (first, count) in parts {
+                assert!(first == next && count > 0 && (first == start || first % GROUP == 0));
+                next += count;
+            }
+            assert_eq!(next, end);
         }
-        assert_eq!(next, frames);
     }
+    assert_eq!(movie_parts(30..200, 96), [(30, 66), (96, 96), (192, 8)]);
+}
+
+#[test]
+fn parts_of_a_movie_that_begins_in_the_middle_of_a_group_are_joined_to_the_bytes_of_one_pass() {
+    let folder = Folder::new("join-range");
+    let frames: Range<u64> = 29..29 + 2 * GROUP;
+    let file = |name: &str, first: u64, count| {
+        let path = folder.join(name);
+        write_disc("mp4", &MovieSettings { first, ..settings() }, &path, count, false);
+        path
+    };
+    let one = file("one.mp4", frames.start, frames.end - frames.start);
+    let parts: Vec<PathBuf> = movie_parts(frames.clone(), GROUP)
+        .into_iter()
+        .map(|(first, count)| file(&format!("{first}.mp4"), first, count))
+        .collect();
+    assert_eq!(parts.len(), 3);
+    let joined = folder.join("joined.mp4");
+    join_movies(&parts, frames.clone(), MovieTarget::path(&joined), None).unwrap();
+    assert!(std::fs::read(&one).unwrap() == std::fs::read(&joined).unwrap());
+    if ffmpeg() {
+        assert_eq!(probe(&joined, "v:0")["nb_read_frames"], (2 * GROUP).to_string());
+    }
+    // A part that begins in the middle of a group is no later part.
+    let short = file("short.mp4", 0, 29);
+    let error = join_movies(&[short, one], 0..frames.end, MovieTarget::path(&joined), None);
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("one.mp4: it begins at frame 29, in the middle of a group"), "{error}");
+}
+
+#[test]
+fn a_complete_movie_is_recognized_by_its_frames_and_settings() {
+    let folder = Folder::new("join-there");
+    let path = folder.join("it.mp4");
+    let own = MovieSettings { first: GROUP, ..settings() };
+    write_disc("mp4", &own, &path, 5, false);
+    let there = |settings: &MovieSettings, frames| has_movie(&RealFiles, &path, settings, frames);
+    assert!(there(&own, 5));
+    assert_eq!(part_frames(&RealFiles, &path).unwrap(), GROUP..GROUP + 5);
+    assert!(!there(&own, 4) && !there(&own, 6));
+    assert!(!there(&settings(), 5));
+    assert!(!there(&MovieSettings { tag: "duel 4".to_owned(), ..own.clone() }, 5));
+    assert!(!there(&MovieSettings { coarseness: 25, ..own.clone() }, 5));
+    assert!(!has_movie(&RealFiles, &folder.join("none.mp4"), &own, 5));
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
+    assert!(!there(&own, 5));
 }
 
 #[test]

@@ -4,7 +4,10 @@ use crate::frames::{disc, rate, write, write_disc};
 use crate::judge::{decode, ffmpeg};
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
-use dragonfly_movie::{MOVIE_FORMATS, Movie, MovieFrame, MovieSettings, MovieTarget, movie_format};
+use dragonfly_movie::{
+    MOVIE_FORMATS, Movie, MovieFrame, MovieSettings, MovieTarget, SequenceName, movie_format,
+};
+use dragonfly_store::RealFiles;
 use exr::prelude::{f16, read_first_rgba_layer_from_file};
 use std::path::Path;
 use std::sync::Arc;
@@ -82,6 +85,35 @@ fn an_exr_file_is_the_linear_light_of_each_frame_with_its_alpha() {
         let green = f32::from_le_bytes(*found[0].first_chunk().unwrap());
         assert!((green - 0.2525).abs() < 1e-3, "{green}");
     }
+}
+
+#[test]
+fn a_frame_is_recognized_by_its_number_and_tag_and_frames_can_be_left_out() {
+    let folder = Folder::new("sequence-tag");
+    for format in ["png", "exr"] {
+        let path = folder.join(&format!("it.##.{format}"));
+        let settings = MovieSettings { tag: "duel 3".to_owned(), ..MovieSettings::new(SIZE, rate("24")) };
+        let format = movie_format(format).unwrap();
+        let mut movie = Movie::begin(format, &settings, MovieTarget::path(&path)).unwrap();
+        for number in [0, 1, 12] {
+            movie.skip_to(number).unwrap();
+            movie.frame(MovieFrame::srgb(SIZE, &disc(SIZE, number, true))).unwrap();
+        }
+        let error = movie.skip_to(12).unwrap_err().to_string();
+        assert!(error.contains("the next frame is 13"), "{error}");
+        assert_eq!(movie.end().unwrap().frames, 3);
+        let name = SequenceName::parse(&path).unwrap();
+        let there = |tag: &str| (0..14).filter(|&at| name.has_frame(&RealFiles, at, tag)).collect::<Vec<_>>();
+        assert_eq!(there("duel 3"), [0, 1, 12], "{}", format.name);
+        assert!(there("duel").is_empty() && there("duel 33").is_empty() && there("").is_empty());
+        // A copy under the name of another frame is another frame.
+        std::fs::copy(name.frame(12), name.frame(2)).unwrap();
+        assert_eq!(there("duel 3"), [0, 1, 12]);
+    }
+    let y4m = MovieTarget::path(folder.join("it.y4m"));
+    let mut movie =
+        Movie::begin(movie_format("y4m").unwrap(), &MovieSettings::new(SIZE, rate("24")), y4m).unwrap();
+    assert!(movie.skip_to(0).is_err());
 }
 
 #[test]

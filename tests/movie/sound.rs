@@ -107,7 +107,7 @@ fn parts_are_joined_with_the_sound_of_the_whole_movie() {
     let count = 2 * GROUP + 7;
     write(&one, count, Some(sound()));
     let mut parts = Vec::new();
-    for (first, count) in dragonfly_movie::movie_parts(count, GROUP) {
+    for (first, count) in dragonfly_movie::movie_parts(0..count, GROUP) {
         let path = folder.join(&format!("{first}.mp4"));
         let settings = MovieSettings { first, ..MovieSettings::new(SIZE, rate("24000/1001")) };
         crate::frames::write_disc("mp4", &settings, &path, count, false);
@@ -115,6 +115,8 @@ fn parts_are_joined_with_the_sound_of_the_whole_movie() {
     }
     join_movies(&parts, 0..count, MovieTarget::path(&joined), Some(sound())).unwrap();
     assert!(std::fs::read(&one).unwrap() == std::fs::read(&joined).unwrap());
+    let settings = MovieSettings::new(SIZE, rate("24000/1001"));
+    assert!(dragonfly_movie::has_movie(&dragonfly_store::RealFiles, &joined, &settings, count));
     // Sound in a part would be lost or repeated.
     let error = join_movies(&[joined], 0..count, MovieTarget::path(&one), None).unwrap_err().to_string();
     assert!(error.contains("it has sound"), "{error}");

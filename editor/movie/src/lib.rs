@@ -12,6 +12,7 @@ mod changed;
 mod error;
 mod format;
 mod frame;
+mod frame_label;
 mod frame_pair;
 mod gif;
 #[cfg(feature = "h264")]
@@ -32,6 +33,7 @@ pub use error::MovieError;
 pub use format::{MOVIE_FORMATS, movie_format};
 pub use frame::{LARGEST_SIDE, MovieFrame};
 pub use movie::Movie;
+pub use mp4::inspect::{has_movie, part_frames};
 pub use mp4::join::join_movies;
 pub use report::MovieReport;
 pub use settings::{GROUP, MovieSettings, movie_parts};

@@ -14,6 +14,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub struct Movie {
     writer: Box<dyn MovieWriter>,
     size: [u32; 2],
+    is_sequence: bool,
     next: u64,
     failed: bool,
 }
@@ -62,12 +63,29 @@ impl Movie {
     ) -> Result<Self, MovieError> {
         settings.check(format.title, format.side)?;
         let writer = (format.begin)(settings, target, sound)?;
-        Ok(Self { writer, size: settings.size, next: settings.first, failed: false })
+        let is_sequence = format.is_sequence;
+        Ok(Self { writer, size: settings.size, is_sequence, next: settings.first, failed: false })
     }
 
     /// Returns the number of the next frame, counted from the start of the whole movie.
     pub fn next_frame(&self) -> u64 {
         self.next
+    }
+
+    /// Moves on to frame `number` of a format with a file for each frame, without writing the frames before it.
+    ///
+    /// # Errors
+    /// For a format with all frames in one file, and for a frame before the next one.
+    pub fn skip_to(&mut self, number: u64) -> Result<(), MovieError> {
+        let reason = match (self.is_sequence, number < self.next) {
+            (false, _) => "frames can be left out only where each is a file of its own".to_owned(),
+            (true, true) => format!("the next frame is {}", self.next),
+            (true, false) => {
+                self.next = number;
+                return Ok(());
+            }
+        };
+        Err(MovieError::Frame { number, reason })
     }
 
     /// Writes the next frame.

@@ -3,6 +3,7 @@
 use crate::error::MovieError;
 use crate::frame::LARGEST_SIDE;
 use dragonfly_anim::stage::time::StageRate;
+use std::ops::Range;
 
 /// Number of frames of a group: each begins with a frame that needs no other one, and parts of a movie are whole groups.
 pub const GROUP: u64 = 48;
@@ -19,12 +20,13 @@ pub struct MovieSettings {
     pub rate: StageRate,
     /// Coarseness of formats with loss, from 10 (best) to 45 (smallest file); 24 is good and 27 small.
     pub coarseness: u8,
-    /// Number of the first frame in the whole movie: the number in the first file name of a sequence. Parts of an MP4 begin at multiples
-    /// of [`GROUP`].
+    /// Number of the first frame: the number in the first file name of a sequence. In an MP4, groups begin at the multiples of [`GROUP`] and
+    /// at this frame, so that it begins its movie or is such a multiple.
     pub first: u64,
     /// Whether an animation begins again after its end; only for formats that are images.
     pub repeats: bool,
-    /// Identity of what is rendered, at most 200 bytes. Parts with different ones are not joined.
+    /// Identity of what is rendered, at most 200 bytes: parts of an MP4 with different ones are not joined, and a frame in a file of its own
+    /// is recognized by it. Without line ends.
     pub tag: String,
 }
 
@@ -60,9 +62,16 @@ impl MovieSettings {
     }
 }
 
-/// Returns the first frame and the number of frames of each part, when `frames` frames are rendered in parts of about `length` frames: whole
-/// groups, so that the joined parts are what one pass writes.
-pub fn movie_parts(frames: u64, length: u64) -> Vec<(u64, u64)> {
+/// Returns the first frame and the number of frames of each part, when `frames` are rendered in parts of about `length` frames. Parts end at
+/// whole groups, so that the joined parts are what one pass writes.
+pub fn movie_parts(frames: Range<u64>, length: u64) -> Vec<(u64, u64)> {
     let length = length.div_ceil(GROUP).max(1).saturating_mul(GROUP);
-    (0..frames.div_ceil(length)).map(|part| (part * length, length.min(frames - part * length))).collect()
+    let mut parts = Vec::new();
+    let mut next = frames.start;
+    while next < frames.end {
+        let end = (next / length + 1).saturating_mul(length).min(frames.end);
+        parts.push((next, end - next));
+        next = end;
+    }
+    parts
 }

@@ -73,7 +73,8 @@ impl ApngWriter {
 
     fn write(&mut self, number: u64) -> Result<(), MovieError> {
         let (rect, cut) = self.pair.changed(self.settings.size, self.frames == 0, false);
-        encode(cut.as_flattened(), [rect.width, rect.height], &mut self.png).map_err(refused(number))?;
+        encode(cut.as_flattened(), [rect.width, rect.height], None, &mut self.png)
+            .map_err(refused(number))?;
         if self.frames == 0 {
             self.file.append(SIGNATURE)?;
             for (kind, data) in png_chunks(&self.png).filter(|(kind, _)| matches!(*kind, b"IHDR" | b"sRGB")) {

@@ -8,7 +8,7 @@ use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
 use crate::writer::MovieFormat;
 use dragonfly_anim::stage::time::StageRate;
-use exr::prelude::{Compression, Encoding, Image, SpecificChannels, Vec2, WritableImage, f16};
+use exr::prelude::{Compression, Encoding, Image, SpecificChannels, Text, Vec2, WritableImage, f16};
 use std::io::Cursor;
 
 /// Largest finite half float.
@@ -28,15 +28,20 @@ pub(super) const EXR: MovieFormat = MovieFormat {
 
 fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<FrameFiles, MovieError> {
     let (table, mut pixels, rate) = (SrgbTable::new(), Vec::new(), settings.rate);
-    let encode = move |frame: MovieFrame<'_>, out: &mut Vec<u8>| {
+    let encode = move |frame: MovieFrame<'_>, label: Option<&str>, out: &mut Vec<u8>| {
         frame.to_linear(&table, &mut pixels);
-        encode(&pixels, frame.size(), rate, out)
+        encode(&pixels, frame.size(), (rate, label), out)
     };
-    FrameFiles::begin(EXR.title, target, Box::new(encode))
+    FrameFiles::begin(EXR.title, settings, target, Box::new(encode))
 }
 
-/// Encodes pixels of red, green, blue and alpha.
-fn encode(rgba: &[f32], size: [u32; 2], rate: StageRate, out: &mut Vec<u8>) -> Result<(), String> {
+/// Encodes pixels of red, green, blue and alpha, with the rate and a comment, if there is one.
+fn encode(
+    rgba: &[f32],
+    size: [u32; 2],
+    (rate, comment): (StageRate, Option<&str>),
+    out: &mut Vec<u8>,
+) -> Result<(), String> {
     out.clear();
     let [width, height] = size.map(|side| side as usize);
     let pixels = rgba.as_chunks::<4>().0;
@@ -47,6 +52,7 @@ fn encode(rgba: &[f32], size: [u32; 2], rate: StageRate, out: &mut Vec<u8>) -> R
     });
     let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
     let mut image = Image::from_encoded_channels((width, height), encoding, channels);
+    image.layer_data.attributes.comments = comment.and_then(Text::new_or_none);
     let (frames, seconds) = rate.fraction();
     image.layer_data.attributes.frames_per_second =
         i32::try_from(frames).ok().map(|frames| (frames, seconds));

@@ -44,12 +44,6 @@ impl Mp4Writer {
     ) -> Result<Self, MovieError> {
         let wrong = |reason| MovieError::Settings { format: MP4.title, reason };
         let (files, path) = target.into_path(MP4.title)?;
-        if !settings.first.is_multiple_of(GROUP) {
-            return Err(wrong(format!(
-                "a part that begins at frame {}: parts begin at multiples of {GROUP}",
-                settings.first
-            )));
-        }
         // Two columns and two rows share a sample of color.
         let size = settings.size.map(|side| side.next_multiple_of(2));
         let encoder = H264Encoder::new(size, settings).map_err(wrong)?;

@@ -35,7 +35,7 @@ pub fn join_movies(
         .ok_or_else(|| first.wrong("it has no rate of a movie".to_owned()))?;
     let (mut next, mut last) = (frames.start, first);
     for part in &heads {
-        check(part, first, next)?;
+        check(part, first, next, frames.start)?;
         next = next.saturating_add(part.frames);
         if next > frames.end {
             return Err(
@@ -60,15 +60,15 @@ pub fn join_movies(
     joined.end(Vec::new())
 }
 
-/// Returns an error unless a part fits to the first one and begins at frame `next`.
-fn check(part: &PartHead, first: &PartHead, next: u64) -> Result<(), MovieError> {
+/// Returns an error unless a part of a movie that begins at frame `start` fits to the first part and begins at frame `next`.
+fn check(part: &PartHead, first: &PartHead, next: u64, start: u64) -> Result<(), MovieError> {
     let begins = part.label.first;
     let (label, wanted) = (&part.label, &first.label);
     let reason = if begins > next {
         format!("it begins at frame {begins}, and the frames from {next} on are missing")
     } else if begins < next {
         format!("it begins at frame {begins}, which is in another part, too")
-    } else if !begins.is_multiple_of(label.group.max(1)) {
+    } else if begins != start && !begins.is_multiple_of(label.group.max(1)) {
         format!("it begins at frame {begins}, in the middle of a group; the part before it is not complete")
     } else if (part.timescale, part.delta) != (first.timescale, first.delta) {
         "it has another number of frames per second".to_owned()

@@ -5,6 +5,7 @@ mod moov;
 mod part;
 mod writer;
 
+pub(crate) mod inspect;
 pub(crate) mod join;
 
 // The format that writes pictures exists only with an encoder; joining needs none.

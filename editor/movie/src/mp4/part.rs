@@ -45,11 +45,21 @@ pub(super) struct MoviePart {
     file: Box<dyn VfsFile>,
     size: u64,
     table: SampleTableAccessor<StblBox>,
+    has_sound: bool,
 }
 
 impl MoviePart {
-    /// Opens a part and reads its tables.
+    /// Opens a part and reads its tables. A part has no sound.
     pub(super) fn open(files: &dyn Vfs, path: &Path) -> Result<Self, MovieError> {
+        let part = Self::open_any(files, path)?;
+        if part.has_sound {
+            return Err(part.wrong("it has sound; parts are joined before the sound is added".to_owned()));
+        }
+        Ok(part)
+    }
+
+    /// Opens a part, or a whole movie that may have sound, and reads its tables.
+    pub(super) fn open_any(files: &dyn Vfs, path: &Path) -> Result<Self, MovieError> {
         let wrong = |reason: String| MovieError::Part { path: path.to_path_buf(), reason };
         let unread = |error: io::Error| wrong(error.to_string());
         let file = files.open(path).map_err(unread)?;
@@ -61,9 +71,8 @@ impl MoviePart {
         let label = tables.unknown_boxes.iter().find_map(MovieLabel::from_box);
         let label = label.ok_or_else(|| wrong("it is no part of a movie of this program".to_owned()))?;
         let mut tracks = tables.trak_boxes.into_iter();
-        let (Some(track), None) = (tracks.next(), tracks.next()) else {
-            return Err(wrong("it has sound; parts are joined before the sound is added".to_owned()));
-        };
+        let track = tracks.next().ok_or_else(|| wrong("it has no pictures".to_owned()))?;
+        let has_sound = tracks.next().is_some();
         let timescale = track.mdia_box.mdhd_box.timescale;
         let table = track.mdia_box.minf_box.stbl_box;
         let ([entry], [durations]) = (table.stsd_box.entries.as_slice(), table.stts_box.entries.as_slice())
@@ -79,7 +88,7 @@ impl MoviePart {
             return Err(wrong(format!("its tables claim {frames} frames in {size} bytes")));
         }
         let head = PartHead { path: path.to_path_buf(), label, entry, timescale, delta, frames };
-        Ok(Self { head, file, size, table })
+        Ok(Self { head, file, size, table, has_sound })
     }
 
     /// Returns label, encoding and length.
@@ -90,6 +99,14 @@ impl MoviePart {
     /// Closes the file and returns label, encoding and length.
     pub(super) fn into_head(self) -> PartHead {
         self.head
+    }
+
+    /// Returns whether the file has the bytes of all samples.
+    pub(super) fn is_whole(&self) -> bool {
+        let end = |offset: u64, size: u32| offset.checked_add(u64::from(size));
+        let mut samples = self.table.samples();
+        samples
+            .all(|sample| end(sample.data_offset(), sample.data_size()).is_some_and(|end| end <= self.size))
     }
 
     fn wrong(&self, reason: String) -> MovieError {
@@ -104,7 +121,9 @@ impl MoviePart {
         let mut bytes = Vec::new();
         for (number, sample) in (self.head.label.first..).zip(self.table.samples()) {
             let is_whole = sample.is_sync_sample();
-            if is_whole != number.is_multiple_of(self.head.label.group) {
+            let begins_group =
+                number.is_multiple_of(self.head.label.group) || number == self.head.label.first;
+            if is_whole != begins_group {
                 return Err(self.wrong(format!("frame {number} begins no group, or one where none begins")));
             }
             let size = sample.data_size();
