@@ -18,7 +18,7 @@ const RATES: [f32; 10] = [12.0, 15.0, 24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0,
 pub const OFF_FRAME: f64 = 0.02;
 
 /// Returns the number of frames from a start to the last one at or just before the end, `length` seconds later.
-pub(crate) fn frames_within(length: f64, rate: f64) -> usize {
+pub fn frames_within(length: f64, rate: f64) -> usize {
     ((length * rate + OFF_FRAME).floor().max(0.0) as usize).saturating_add(1)
 }
 

@@ -3,4 +3,5 @@
 pub mod app;
 pub mod command;
 pub mod control;
+pub mod movie_render;
 pub mod panels;

@@ -4,6 +4,7 @@ mod archives;
 mod beside;
 mod compared_file;
 mod contacts;
+mod content_hash;
 mod document_ended;
 mod document_writer;
 mod documents;

@@ -28,6 +28,7 @@ mod clip_news;
 mod clip_order;
 mod clips;
 mod comparing;
+mod content_hash;
 mod conversion;
 mod copied_files;
 pub mod demo;
@@ -112,6 +113,7 @@ pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
 pub use clip_order::ClipOrder;
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
+pub use content_hash::content_hash;
 pub use conversion::{
     ConversionError, ConversionOrder, ConvertedFile, PreparedConversion, checked_preset, checked_textures,
     export, export_presets, places_textures, prepare_conversion, write_files, written_extensions,

@@ -18,4 +18,4 @@ mod samples;
 pub use decode::{SOUND_FORMATS, SoundFormat, SoundReader, is_sound_file};
 pub use mix::{MixedSounds, SoundMix};
 pub use output::{OutputCommand, OutputError, OutputVoice, SoundClock, SoundOutput};
-pub use samples::{MOST_FRAMES, SoundSamples};
+pub use samples::{MOST_FRAMES, MOST_SOUND_BYTES, SoundSamples};

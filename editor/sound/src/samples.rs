@@ -5,6 +5,9 @@ use super::SoundReader;
 /// Largest number of frames of a sound that is played: 23 minutes at 48 kHz, 256 MiB.
 pub const MOST_FRAMES: usize = 64 << 20;
 
+/// Memory for the samples of all sounds of a scene or take, bytes.
+pub const MOST_SOUND_BYTES: usize = 512 << 20;
+
 /// Factor for channels beyond left and right, which have no side: half of their power on each.
 const OTHERS: f32 = std::f32::consts::FRAC_1_SQRT_2;
 

@@ -44,7 +44,7 @@ pub use init_manager::{InitManager, MakeRuntime};
 pub use interface::Interface;
 pub use main_runtime::MainRuntime;
 pub use options::Options;
-pub use signals::end_by;
+pub use signals::{end_by, on_signals};
 
 use dragonfly_runtime::Next;
 use event::UserEvent;

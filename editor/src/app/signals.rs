@@ -6,16 +6,25 @@
 use super::event::UserEvent;
 use winit::event_loop::EventLoopProxy;
 
-/// Ends the loop of `proxy` on these signals. Signals that the program was started to ignore stay ignored.
+/// Ends the loop of `proxy` on these signals.
+pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) {
+    on_signals(move |signal| {
+        // Fails only when the loop has ended, and then the program ends soon.
+        let _ = proxy.send_event(UserEvent::Signal(signal));
+    });
+}
+
+/// Calls `act` with each of these signals, in a thread of its own; a second one after a moment ends the process at once. Signals that the program was
+/// started to ignore stay ignored.
 ///
 /// Does nothing on systems without signals.
-pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) {
+pub fn on_signals(act: impl FnMut(i32) + Send + 'static) {
     #[cfg(unix)]
-    if let Err(error) = unix::watch(proxy) {
+    if let Err(error) = unix::watch(act) {
         tracing::warn!("signals cannot be handled, so one ends the program at once: {error}");
     }
     #[cfg(not(unix))]
-    drop(proxy);
+    drop(act);
 }
 
 /// Ends this process as `signal` ends one that does not handle it, so that the parent process sees why it ended.
@@ -29,18 +38,16 @@ pub fn end_by(signal: i32) {
 
 #[cfg(unix)]
 mod unix {
-    use super::UserEvent;
     use dragonfly_runtime::Job;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use std::time::{Duration, Instant};
-    use winit::event_loop::EventLoopProxy;
 
     /// Time after the first signal from which another one ends the program at once. Systems may send two signals
     /// together; a user who sends a second one has waited longer than this.
     const PATIENCE: Duration = Duration::from_secs(1);
 
-    pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) -> std::io::Result<()> {
+    pub(super) fn watch(mut act: impl FnMut(i32) + Send + 'static) -> std::io::Result<()> {
         let ignored = ignored(&std::fs::read_to_string("/proc/self/status").unwrap_or_default());
         let heard = [SIGTERM, SIGHUP, SIGINT].into_iter().filter(|signal| !ignored(*signal));
         let mut signals = Signals::new(heard)?;
@@ -51,8 +58,7 @@ mod unix {
                 if first.get_or_insert_with(Instant::now).elapsed() > PATIENCE {
                     super::end_by(signal);
                 }
-                // Fails only when the loop has ended, and then the program ends soon.
-                let _ = proxy.send_event(UserEvent::Signal(signal));
+                act(signal);
             }
         };
         Job::start_detached("signals", listen)

@@ -8,16 +8,14 @@ use dragonfly_document::{FileView, SoundSource};
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_runtime::{Address, Job, JobContext};
 use dragonfly_sound::{
-    MixedSounds, OutputCommand, OutputError, SoundClock, SoundMix, SoundOutput, SoundSamples,
+    MOST_SOUND_BYTES, MixedSounds, OutputCommand, OutputError, SoundClock, SoundMix, SoundOutput,
+    SoundSamples,
 };
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// Memory for the samples of all sounds of what is open, bytes.
-const MOST_BYTES: usize = 512 << 20;
 
 /// Least length of the piece of sound at a new time of a paused playhead, seconds.
 const PIECE: f64 = 0.04;
@@ -218,9 +216,9 @@ impl SoundPlayer {
     pub fn receive(&mut self, state: &mut State, (source, samples): SamplesAnswer) {
         self.reading = None;
         let used: usize = self.samples.values().flatten().map(|samples| samples.bytes()).sum();
-        let samples = samples.and_then(|samples| match used + samples.bytes() <= MOST_BYTES {
+        let samples = samples.and_then(|samples| match used + samples.bytes() <= MOST_SOUND_BYTES {
             true => Ok(Arc::new(samples)),
-            false => Err(format!("the sounds of this scene are longer than {} MB", MOST_BYTES >> 20)),
+            false => Err(format!("the sounds of this scene are longer than {} MB", MOST_SOUND_BYTES >> 20)),
         });
         if let Err(reason) = &samples {
             state.say(MessageSeverity::Warning, format!("A sound is not played: {reason}"));

@@ -30,6 +30,16 @@ pub(super) struct File {
 }
 
 impl File {
+    /// Creates the argument of a command in which it may be missing.
+    pub(super) fn new(path: PathBuf, import: ImportArguments) -> Self {
+        Self { path, import }
+    }
+
+    /// Returns the source that it names.
+    pub(super) fn source(&self) -> Source {
+        source_as(&self.path, &self.import)
+    }
+
     /// Returns the path if it is that of a scene: of its script or its project.
     ///
     /// # Errors
@@ -53,12 +63,12 @@ impl File {
 
     /// Loads the model, with progress on stderr if that takes long.
     pub(super) fn load(&self) -> Result<LoadedModel, Failure> {
-        load(&source_as(&self.path, &self.import))
+        load(&self.source())
     }
 
     /// Does the same as [`Self::load`], with warnings about images that cannot be decoded.
     pub(super) fn load_checked(&self) -> Result<LoadedModel, Failure> {
-        load_checked(&source_as(&self.path, &self.import))
+        load_checked(&self.source())
     }
 }
 
@@ -98,6 +108,11 @@ pub(super) struct TakeChoice {
 }
 
 impl TakeChoice {
+    /// Returns what was written; `None` where nothing was.
+    pub(super) fn written(&self) -> Option<&str> {
+        self.take.as_deref()
+    }
+
     /// Returns the index of the take; `None` for the rest pose of a model without takes.
     pub(super) fn index(&self, title: &str, model: &ModelData) -> Result<Option<usize>, Failure> {
         let takes = &model.animation.takes;

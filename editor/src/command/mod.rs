@@ -19,6 +19,7 @@ mod import_options;
 mod info;
 mod info_figure;
 mod log;
+mod movie;
 mod open;
 mod output;
 mod pack;
@@ -69,6 +70,7 @@ subcommands! {
     Pose => pose::PoseArguments,
     Explain => explain::ExplainArguments,
     Render => render::RenderArguments,
+    Movie => movie::MovieArguments,
     Script => scene::ScriptArguments,
     Edit => edit::EditArguments,
     Retarget => retarget::RetargetArguments,
@@ -88,6 +90,8 @@ Examples:
   dragonfly diff Fox.glb Fox2.glb   compare the takes of two files
   dragonfly render demo: -o fly.png --take cruise --time 0.4
                                     render an image without a window
+  dragonfly movie duel.meproj -o duel.mp4
+                                    render a movie without a window; --resume goes on after an interruption
   dragonfly pose Fox.glb --time 0.5 --json
                                     print exact poses for other programs
   dragonfly explain Fox.glb --time 0.5 --bone b_Head_05

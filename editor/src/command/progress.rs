@@ -4,8 +4,8 @@ use dragonfly_document::{LoadStage, Progress};
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-/// Operations shorter than this print no progress.
-const PATIENCE: Duration = Duration::from_millis(300);
+/// Duration up to which operations print no progress.
+pub(super) const PATIENCE: Duration = Duration::from_millis(300);
 
 /// Progress of one operation.
 pub(super) struct Teller {

@@ -93,6 +93,22 @@ impl RenderView {
         self.size.map_or(otherwise, |size| [size.width, size.height])
     }
 
+    /// Returns the options that differ from the defaults, as they are written on a command line.
+    pub(super) fn to_arguments(&self) -> Vec<String> {
+        let usual = Self::default();
+        let angle = |angle: f32, usual: f32| (angle != usual).then(|| angle.to_string());
+        let hex = |color: Color| color.0.iter().map(|value| format!("{value:02x}")).collect::<String>();
+        let options = [
+            ("--size", self.size.map(|size| format!("{}x{}", size.width, size.height))),
+            ("--yaw", angle(self.yaw, usual.yaw)),
+            ("--pitch", angle(self.pitch, usual.pitch)),
+            ("--background", self.background.map(hex)),
+        ];
+        let chosen = options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?]));
+        let skeleton = self.skeleton.then(|| "--skeleton".to_owned());
+        chosen.flatten().chain(skeleton).collect()
+    }
+
     /// Returns the settings of an image.
     pub(super) fn settings(&self, otherwise: [u32; 2]) -> PictureSettings {
         PictureSettings {

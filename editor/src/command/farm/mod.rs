@@ -8,15 +8,45 @@ mod opencue;
 mod openjd;
 mod slurm;
 
-/// The number of the part in the arguments of a job, from 1.
+/// The number of the part in the arguments of a job.
 const PART: &str = "\u{1}";
 
-/// A command for a farm: `dragonfly` with the same arguments for each part but for its number.
+/// A command for a farm: `dragonfly` with the same arguments for each part but for its number, and maybe another command after all parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct FarmJob {
     name: &'static str,
     arguments: Vec<String>,
-    parts: usize,
+    numbers: PartNumbers,
+    /// Arguments of the command that puts the parts together.
+    last: Option<Vec<String>>,
+}
+
+/// The numbers of the parts of a job: `count` of them, the first one and each `step` after it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PartNumbers {
+    /// Number of the first part.
+    pub(super) first: u64,
+    /// Difference between the numbers of two parts.
+    pub(super) step: u64,
+    /// Number of parts, at least one.
+    pub(super) count: u64,
+}
+
+impl PartNumbers {
+    /// Returns the number of the last part.
+    fn last(self) -> u64 {
+        self.first + self.count.saturating_sub(1) * self.step
+    }
+
+    /// Returns the numbers as farms write them, with `by` before a step: `1-12`, `0-192:48`.
+    fn range(self, by: &str) -> String {
+        let (first, last) = (self.first, self.last());
+        match (self.step, self.count) {
+            (1, _) => format!("{first}-{last}"),
+            (_, 1) => first.to_string(),
+            (step, _) => format!("{first}-{last}{by}{step}"),
+        }
+    }
 }
 
 impl FarmJob {
@@ -31,17 +61,44 @@ impl FarmJob {
         parts: usize,
     ) -> Result<Self, String> {
         let mut arguments: Vec<String> = arguments.into_iter().collect();
-        if let Some(odd) = arguments.iter().find(|argument| argument.chars().any(char::is_control)) {
-            return Err(format!("{odd:?} contains a control character and cannot be part of a job file"));
-        }
+        check(&arguments)?;
         arguments.push("--shard".to_owned());
         arguments.push(format!("{PART}/{parts}"));
-        Ok(Self { name, arguments, parts })
+        let numbers = PartNumbers { first: 1, step: 1, count: parts as u64 };
+        Ok(Self { name, arguments, numbers, last: None })
+    }
+
+    /// Returns a job that runs `dragonfly` with these arguments and `--frames NUMBER+STEP -o OUTPUT` for each of `numbers`, the first frame of the part, and
+    /// after all of them with the arguments `last`. `output` returns the output of a part by its number.
+    ///
+    /// # Errors
+    ///
+    /// An argument with a line end, which not every engine can pass on.
+    pub(super) fn of_frames(
+        name: &'static str,
+        arguments: impl IntoIterator<Item = String>,
+        numbers: PartNumbers,
+        output: impl Fn(&str) -> String,
+        last: Option<Vec<String>>,
+    ) -> Result<Self, String> {
+        let mut arguments: Vec<String> = arguments.into_iter().collect();
+        check(&arguments)?;
+        check(&[output("")])?;
+        check(last.as_deref().unwrap_or_default())?;
+        let frames = format!("{PART}+{}", numbers.step);
+        arguments.extend(["--frames".to_owned(), frames, "-o".to_owned(), output(PART)]);
+        Ok(Self { name, arguments, numbers, last })
     }
 
     /// Returns the arguments with `token` in place of the number of the part.
     fn arguments(&self, token: &str) -> impl Iterator<Item = String> {
         self.arguments.iter().map(move |argument| argument.replace(PART, token))
+    }
+
+    /// Returns the command after all parts as one line for a POSIX shell; `None` where there is none.
+    fn last_shell_line(&self) -> Option<String> {
+        let last = self.last.clone()?;
+        Some(Self { arguments: last, last: None, ..self.clone() }.shell_line(""))
     }
 
     /// Returns the command as one line for a POSIX shell, in which `token` is expanded.
@@ -56,6 +113,14 @@ impl FarmJob {
         };
         let words: Vec<String> = self.arguments.iter().map(quoted).collect();
         format!("dragonfly {}", words.join(" "))
+    }
+}
+
+/// Returns an error for arguments that cannot be in a job file.
+fn check(arguments: &[String]) -> Result<(), String> {
+    match arguments.iter().find(|argument| argument.chars().any(char::is_control)) {
+        Some(odd) => Err(format!("{odd:?} contains a control character and cannot be part of a job file")),
+        None => Ok(()),
     }
 }
 
@@ -90,7 +155,7 @@ macro_rules! engines {
 engines! {
     /// Open Job Description, for example for AWS Deadline Cloud; `openjd run JOB`
     Openjd => openjd,
-    /// Slurm: an array job; `sbatch JOB`
+    /// Slurm: an array job, `sbatch JOB`; of a movie a script that submits two jobs, `sh JOB`
     Slurm => slurm,
     /// OpenCue: a job specification in XML; `cueman` or the API launches it
     Opencue => opencue,
@@ -126,5 +191,33 @@ mod tests {
             assert!(!text.contains(PART) && text.ends_with('\n'), "{engine:?}");
         }
         FarmJob::sharded("a", ["two\nlines".to_owned()], 2).expect_err("a line end");
+    }
+
+    #[test]
+    fn every_engine_gets_the_first_frame_of_each_part_and_the_command_after_them() {
+        let arguments = ["movie", "it's a duel.xml"].map(str::to_owned);
+        let numbers = PartNumbers { first: 48, step: 48, count: 3 };
+        let last = ["movie", "--join", "parts", "-o", "a duel.mp4"].map(str::to_owned).to_vec();
+        let output = |part: &str| format!("parts/{part}.mp4");
+        let job =
+            FarmJob::of_frames("dragonfly-movie", arguments, numbers, output, Some(last)).expect("a job");
+        let frames = [
+            (FarmEngine::Openjd, ["48-144:48", "{{Task.Param.Part}}+48", "parts/{{Task.Param.Part}}.mp4"]),
+            (FarmEngine::Slurm, ["--array=0-2", "\"$((48 + SLURM_ARRAY_TASK_ID * 48))\"+48", "--dependency"]),
+            (FarmEngine::Opencue, ["48-144x48", "#IFRAME#+48", "parts/#IFRAME#.mp4"]),
+            (FarmEngine::Flamenco, ["part <= 144; part += 48", "part + \"+48\"", "addDependency"]),
+        ];
+        for (engine, words) in frames {
+            let text = engine.text(&job).expect("a job file");
+            assert!(words.iter().all(|word| text.contains(word)), "{engine:?}: {text}");
+            assert!(text.contains("--join") && text.contains("a duel.mp4"), "{engine:?}: {text}");
+            assert!(!text.contains(PART) && text.ends_with('\n'), "{engine:?}");
+        }
+        let without = FarmJob { last: None, ..job };
+        for engine in FarmEngine::value_variants() {
+            let text = engine.text(&without).expect("a job file");
+            let after = ["--join", "LAYER_ON_LAYER", "addDependency", "--dependency", "dependsOn"];
+            assert!(!after.iter().any(|word| text.contains(word)) && text.contains("+48"), "{text}");
+        }
     }
 }

@@ -3,14 +3,22 @@
 use super::FarmJob;
 
 pub(super) fn text(job: &FarmJob) -> Result<String, String> {
-    let command = job.shell_line("#IFRAME#");
-    let escaped = command
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-        .replace('\'', "&apos;");
-    let (name, parts) = (job.name, job.parts);
+    let name = job.name;
+    let mut layers = layer("parts", &job.shell_line("#IFRAME#"), &job.numbers.range("x"));
+    let mut depends = "<depends/>".to_owned();
+    if let Some(last) = job.last_shell_line() {
+        layers.push_str(&layer("join", &last, "1-1"));
+        depends = format!(
+            r#"<depends>
+    <depend type="LAYER_ON_LAYER" anyframe="False">
+      <depjob>{name}</depjob>
+      <deplayer>join</deplayer>
+      <onjob>{name}</onjob>
+      <onlayer>parts</onlayer>
+    </depend>
+  </depends>"#
+        );
+    }
     Ok(format!(
         r#"<?xml version="1.0"?>
 <!DOCTYPE spec PUBLIC "SPI Cue Specification Language" "http://localhost:8080/spcue/dtd/cjsl-1.15.dtd">
@@ -23,18 +31,31 @@ pub(super) fn text(job: &FarmJob) -> Result<String, String> {
     <paused>False</paused>
     <maxretries>2</maxretries>
     <layers>
-      <layer name="parts" type="Render">
+{layers}    </layers>
+  </job>
+  {depends}
+</spec>
+"#
+    ))
+}
+
+/// Returns a layer that runs a command for each frame of a range.
+fn layer(name: &str, command: &str, range: &str) -> String {
+    let escaped = command
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+        .replace('\'', "&apos;");
+    format!(
+        r#"      <layer name="{name}" type="Render">
         <cmd>{escaped}</cmd>
-        <range>1-{parts}</range>
+        <range>{range}</range>
         <chunk>1</chunk>
         <services>
           <service>shell</service>
         </services>
       </layer>
-    </layers>
-    <depends/>
-  </job>
-</spec>
 "#
-    ))
+    )
 }

@@ -53,8 +53,13 @@ impl FromStr for ShotChoice {
 }
 
 impl ShotChoice {
+    /// Returns what was written; `None` where nothing was.
+    pub(in crate::command) fn written(&self) -> Option<&str> {
+        self.0.as_deref()
+    }
+
     /// Returns the camera of `plan` that is meant.
-    fn camera(&self, plan: &StagePlan) -> Result<ThroughCamera, Failure> {
+    pub(in crate::command) fn camera(&self, plan: &StagePlan) -> Result<ThroughCamera, Failure> {
         match self.0.as_deref() {
             None | Some("shot") => Ok(ThroughCamera::Shot),
             Some("free") => Ok(ThroughCamera::Free),

@@ -1,0 +1,85 @@
+//! The sounds of a scene, mixed for its movie.
+
+use super::error::MovieRenderError;
+use super::frames::MovieFrames;
+use dragonfly_anim::stage::StagePlan;
+use dragonfly_anim::stage::time::StageRate;
+use dragonfly_document::{Cancel, SoundSource};
+use dragonfly_movie::{MovieSound, ReadSamples};
+use dragonfly_sound::{MOST_SOUND_BYTES, MixedSounds, SoundMix, SoundSamples};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Samples per second of the mix.
+const SAMPLES: u32 = 48_000;
+/// Samples that are mixed at once: whole blocks of the mix, so that its result is the same in every movie.
+const BLOCK: usize = 4096;
+
+/// Mixes the sounds that a scene plays during `frames`, from files in `folder` or below it. `None` where it plays none. A sound that cannot be read is left
+/// out, and `warn` receives a sentence about it.
+///
+/// # Errors
+///
+/// It was cancelled.
+pub fn scene_sound(
+    plan: &Arc<StagePlan>,
+    folder: &Path,
+    (frames, rate): (&MovieFrames, StageRate),
+    cancel: &Cancel,
+    warn: &mut dyn FnMut(&str),
+) -> Result<Option<MovieSound>, MovieRenderError> {
+    let samples = read_sounds(plan, folder, cancel, warn)?;
+    if samples.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let start = rate.frame(i64::try_from(frames.first()).unwrap_or(i64::MAX)).seconds();
+    let (per, seconds) = rate.fraction();
+    let whole = u128::from(frames.count()) * u128::from(seconds) * u128::from(SAMPLES);
+    let count = u64::try_from(whole.div_ceil(u128::from(per))).unwrap_or(u64::MAX);
+    let mut mix = SoundMix::new(MixedSounds::Scene { plan: Arc::clone(plan), samples });
+    let (mut mixed, mut block) = (0_u64, vec![[0.0; 2]; BLOCK]);
+    let read: ReadSamples = Box::new(move |out| {
+        let length = (count - mixed).min(BLOCK as u64);
+        let block = &mut block[..length as usize];
+        block.fill([0.0; 2]);
+        mix.add(start + mixed as f64 / f64::from(SAMPLES), 1.0 / f64::from(SAMPLES), block);
+        out.extend_from_slice(block.as_flattened());
+        mixed += length;
+        Ok(mixed < count)
+    });
+    Ok(Some(MovieSound::samples(SAMPLES, 2, read)?))
+}
+
+/// Reads the sounds of a plan in its order, each file once; `None` for those that cannot be read.
+fn read_sounds(
+    plan: &StagePlan,
+    folder: &Path,
+    cancel: &Cancel,
+    warn: &mut dyn FnMut(&str),
+) -> Result<Vec<Option<Arc<SoundSamples>>>, MovieRenderError> {
+    let mut read: BTreeMap<&str, Option<Arc<SoundSamples>>> = BTreeMap::new();
+    let mut bytes = 0;
+    for cue in plan.sounds() {
+        if read.contains_key(&*cue.source) {
+            continue;
+        }
+        let source = SoundSource::Below { folder: folder.to_path_buf(), name: cue.source.to_string() };
+        let samples = source.samples(cancel);
+        if cancel.is_cancelled() {
+            return Err(MovieRenderError::Cancelled);
+        }
+        let samples = samples.and_then(|samples| {
+            bytes += samples.bytes();
+            let fits = bytes <= MOST_SOUND_BYTES;
+            fits.then_some(samples).ok_or_else(|| {
+                format!("{}: the sounds are longer than {} MB", cue.source, MOST_SOUND_BYTES >> 20)
+            })
+        });
+        if let Err(reason) = &samples {
+            warn(&format!("a sound is left out: {reason}"));
+        }
+        read.insert(&cue.source, samples.ok().map(Arc::new));
+    }
+    Ok(plan.sounds().iter().map(|cue| read.get(&*cue.source).cloned().flatten()).collect())
+}
