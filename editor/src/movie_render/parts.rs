@@ -2,7 +2,7 @@
 
 use super::error::MovieRenderError;
 use super::movie_run::MovieRun;
-use super::render::{MovieOrder, RenderedMovie};
+use super::order::{MovieOrder, RenderedMovie};
 use dragonfly_document::make_folder;
 use dragonfly_movie::{
     GROUP, Movie, MovieFormat, MovieSettings, MovieTarget, has_movie, join_movies, movie_parts,

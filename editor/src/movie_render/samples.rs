@@ -3,6 +3,7 @@
 use super::error::MovieRenderError;
 use super::frame_subject::FrameSubject;
 use super::source::RenderedFrame;
+use dragonfly_anim::stage::time::StageRate;
 use dragonfly_picture::{PictureSettings, Studio};
 
 /// The samples of each frame.
@@ -20,12 +21,12 @@ impl Default for SampleSettings {
     }
 }
 
-/// Renders a frame of several samples, which begins at the time of `settings`.
+/// Renders a frame of several samples, which begins at the time of `settings`, of a movie with a rate.
 pub(super) fn render_sample_frame(
     _studio: &mut Studio,
     _subject: &FrameSubject,
     _settings: &PictureSettings,
-    _sampling: SampleSettings,
+    (_sampling, _rate): (SampleSettings, StageRate),
 ) -> Result<RenderedFrame, MovieRenderError> {
     Err(MovieRenderError::Samples)
 }

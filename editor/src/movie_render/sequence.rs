@@ -2,7 +2,7 @@
 
 use super::error::MovieRenderError;
 use super::movie_run::MovieRun;
-use super::render::{MovieOrder, RenderedMovie};
+use super::order::{MovieOrder, RenderedMovie};
 use dragonfly_movie::{Movie, MovieTarget, SequenceName};
 
 /// Renders a sequence. Resumed, it keeps the frames that are there and show the same.

@@ -48,9 +48,9 @@ impl StudioFrames {
 impl FrameSource for StudioFrames {
     fn frame(&mut self, number: u64) -> Result<RenderedFrame, MovieRenderError> {
         self.seek(number);
-        let Self { studio, subject, settings, sampling, .. } = self;
+        let Self { studio, subject, settings, sampling, rate } = self;
         if sampling.samples > 1 {
-            return render_sample_frame(studio, subject, settings, *sampling);
+            return render_sample_frame(studio, subject, settings, (*sampling, *rate));
         }
         let picture = match subject {
             FrameSubject::Scene(view) => studio.render_scene(view, settings)?,

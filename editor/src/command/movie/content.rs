@@ -4,7 +4,7 @@ use super::super::Failure;
 use super::super::choice::File;
 use super::super::render::{USUAL_SIZE, studio, tell_warnings};
 use super::super::scene;
-use super::MovieArguments;
+use super::arguments::MovieArguments;
 use super::rate;
 use super::shot::shot_frames;
 use crate::movie_render::{FrameSubject, MovieFrames, StudioFrames, movie_tag, scene_sound, take_camera};

@@ -5,6 +5,9 @@ use crate::movie_render::MovieFrames;
 use std::num::NonZeroU64;
 use std::str::FromStr;
 
+/// Largest number of frames of a movie: days.
+const MOST_FRAMES: u64 = 10_000_000;
+
 /// Frames as they are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FramesArgument {
@@ -78,11 +81,16 @@ impl ChosenFrames {
             let chosen = all.within(first..last.saturating_add(1));
             movie = chosen.ok_or_else(|| refused(there.clone()))?.stepped(step);
         }
-        let Some((first, count)) = part else { return Ok(Self { movie, rendered: movie, is_part: false }) };
-        let rendered = movie.within(first..first.saturating_add(count.get()));
-        let rendered =
-            rendered.ok_or_else(|| refused(format!("none of {first}+{count} is rendered; {there}")))?;
-        Ok(Self { movie, rendered, is_part: true })
+        let mut rendered = movie;
+        if let Some((first, count)) = part {
+            let inside = movie.within(first..first.saturating_add(count.get()));
+            rendered =
+                inside.ok_or_else(|| refused(format!("none of {first}+{count} is rendered; {there}")))?;
+        }
+        if rendered.count() > MOST_FRAMES {
+            return Err(refused(format!("more than {MOST_FRAMES} frames are too many; {there}")));
+        }
+        Ok(Self { movie, rendered, is_part: part.is_some() })
     }
 }
 

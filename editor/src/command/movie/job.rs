@@ -3,7 +3,7 @@
 use super::super::farm::{FarmEngine, FarmJob, PartNumbers};
 use super::super::output::write_file;
 use super::super::{Failure, tell};
-use super::MovieArguments;
+use super::arguments::MovieArguments;
 use super::content::MovieContent;
 use super::frames_argument::{ChosenFrames, FramesArgument};
 use super::output_choice::{format_of, is_stdout};

@@ -1,7 +1,7 @@
 //! `dragonfly movie [FILE] --join PART… -o out.mp4`: parts of an MP4 put together without encoding them again.
 
 use super::super::{Failure, tell};
-use super::MovieArguments;
+use super::arguments::MovieArguments;
 use super::content::MovieContent;
 use super::frames_argument::ChosenFrames;
 use super::output_choice::is_stdout;

@@ -1,7 +1,7 @@
 //! Rendering a movie here.
 
 use super::super::{Failure, tell};
-use super::MovieArguments;
+use super::arguments::MovieArguments;
 use super::content::MovieContent;
 use super::ffmpeg::FfmpegRun;
 use super::frames_argument::ChosenFrames;
