@@ -103,7 +103,7 @@ fn a_take_is_shown_from_its_first_to_its_last_frame_by_a_camera_that_stands_stil
     let end =
         takes.iter().find(|take| take["name"] == "Run").expect("a take")["end"].as_f64().expect("a time");
     assert_eq!(scene.names().len(), (end * 24.0 + 0.02) as usize + 1);
-    // All frames show the same fox in the same view: about as many pixels of it, and none at the edge.
+    // All frames show the same fox in the same view: a similar number of pixels, and none at the edge.
     let black = |pixel: &image::Rgba<u8>| pixel.0[..3].iter().all(|value| *value < 8);
     for name in scene.names() {
         let frame = image::open(scene.path(&name)).expect("an image").into_rgba8();

@@ -68,7 +68,7 @@ fn order(format: &str, target: MovieTarget, frames: Range<u64>, resume: bool) ->
     }
 }
 
-/// Renders a movie. Returns what was told, too.
+/// Renders a movie. Returns also its frames and warnings, as they were reported.
 fn render(
     order: MovieOrder,
     source: &mut Gradients,
@@ -199,7 +199,7 @@ impl Write for WaitingStream {
     }
 }
 
-/// Frames that count how many of them the stream has not begun, and let it go on.
+/// Frames that count how many of them the stream has not begun, and end its wait.
 struct AheadFrames {
     begun: Arc<AtomicU64>,
     go: Option<flume::Sender<()>>,

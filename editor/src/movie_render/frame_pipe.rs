@@ -9,7 +9,7 @@ use flume::{Receiver, Sender};
 /// Number of frames that wait for the encoder at most. With the one that is being encoded there are three in memory.
 const WAITING: usize = 2;
 
-/// What the encoder receives. When no more comes without the end, the movie is given up.
+/// A message to the encoder. When no more comes without the end, the movie is given up.
 enum PipeMessage {
     Frame(u64, RenderedFrame),
     End,

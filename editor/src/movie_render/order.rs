@@ -30,7 +30,7 @@ pub struct RenderedMovie {
     pub path: Option<PathBuf>,
     /// Number of bytes that were written; of a sequence without the frames that were there.
     pub bytes: u64,
-    /// What the user is to be told, in sentences.
+    /// Notes for the user, in sentences.
     pub notices: Vec<String>,
 }
 

@@ -75,7 +75,7 @@ pub(super) fn render_parts(
     Ok(RenderedMovie::of(report, run.clock.kept()))
 }
 
-/// Renders the parts that are missing. Returns the paths of all parts, and what the user is to be told about one of them.
+/// Renders the parts that are missing. Returns the paths of all parts, and the notes for the user about one of them.
 fn render_all(
     order: &MovieOrder,
     folder: &PartFolder,

@@ -4,7 +4,7 @@ use super::super::Failure;
 use dragonfly_movie::{MOVIE_FORMATS, MovieFormat, SequenceName, movie_format};
 use std::path::Path;
 
-/// Returns whether a path stands for standard output.
+/// Returns whether a path means standard output.
 pub(super) fn is_stdout(path: &Path) -> bool {
     path == Path::new("-")
 }

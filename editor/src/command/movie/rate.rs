@@ -20,7 +20,7 @@ pub(super) fn of_model(loaded: &LoadedModel) -> StageRate {
     loaded.conversion.frame_rate.and_then(|rate| known(rate.value)).unwrap_or_default()
 }
 
-/// Returns the fraction that a rate of single precision stands for; `None` for rates that no movie has.
+/// Returns the fraction that a rate of single precision means; `None` for rates that no movie has.
 fn known(rate: f32) -> Option<StageRate> {
     let rate = f64::from(rate);
     let whole = if (1.0..=MOST_FRAMES).contains(&rate) { rate.round() as u32 } else { return None };
@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rates_of_files_become_the_fractions_that_they_stand_for() {
+    fn rates_of_files_become_the_fractions_that_they_mean() {
         let found = |rate: f32| known(rate).map(|rate| rate.to_string());
         assert_eq!(found(30.000_03).as_deref(), Some("30"));
         assert_eq!(found(1.0 / 0.008_333).as_deref(), Some("120"));
