@@ -25,7 +25,7 @@ fn run_there(scene: &MovieScene, program: &str, arguments: &[&str]) -> Outcome {
     let path = format!("{}:{}:{others}", scene.path("bin").display(), own.display());
     let mut command = Command::new(program);
     command.args(arguments).current_dir(scene.folder()).env("PATH", path);
-    ["DISPLAY", "WAYLAND_DISPLAY"].iter().for_each(|name| drop(command.env_remove(name)));
+    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
     outcome(&mut command)
 }
 

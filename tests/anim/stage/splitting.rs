@@ -47,7 +47,7 @@ fn numbers(scene: &StageScene) -> Vec<f32> {
         let size = state.transform.scale.x;
         all.extend(state.transform.translation.to_array());
         all.extend((state.transform.rotation * glam::Vec3::Z).to_array());
-        for pose in &state.pose {
+        if let Some(pose) = &state.pose {
             // The last number of each row is a position.
             let scaled = |(at, number): (usize, &f32)| if at % 4 == 3 { number * size } else { *number };
             pose.to_root.matrices().for_each(|matrix| all.extend(matrix.iter().enumerate().map(scaled)));
