@@ -36,7 +36,7 @@ struct Gradients {
 impl FrameSource for Gradients {
     fn frame(&mut self, number: u64) -> Result<RenderedFrame, MovieRenderError> {
         if self.broken == Some(number) {
-            return Err(MovieRenderError::Samples);
+            return Err(MovieRenderError::Encoder);
         }
         self.rendered.push(number);
         if let Some((_, cancel)) = self.cancel.as_ref().filter(|(after, _)| self.rendered.len() == *after) {
@@ -170,7 +170,7 @@ fn a_frame_that_cannot_be_drawn_and_a_file_that_cannot_be_written_leave_nothing(
         std::fs::write(&path, "old").expect("a file");
         let mut source = Gradients { broken: Some(broken), ..Gradients::default() };
         let (rendered, ..) = render(order(format, MovieTarget::path(&path), 0..100, false), &mut source);
-        assert!(matches!(rendered, Err(MovieRenderError::Samples)), "{format}");
+        assert!(matches!(rendered, Err(MovieRenderError::Encoder)), "{format}");
         assert_eq!(std::fs::read(&path).expect("a file"), b"old");
     }
     // The part that was complete is kept.

@@ -1,4 +1,4 @@
-//! A model that is edited in its scene: what is unsaved of the model and what is unsaved of the scene are told apart.
+//! A model that is edited in its scene: the unsaved work of the model and that of the scene are shown apart from each other.
 
 use crate::scene_bench::{FOXES, scene};
 use dragonfly::panels::dialogs::UnsavedQuestion;

@@ -196,7 +196,10 @@ fn the_question_about_unsaved_work_names_the_place_of_an_error_that_was_typed() 
         window.state_mut().state.ask(question.into());
         window.run_steps(3);
         let error = window.query_all_by_label_contains("is saved as it is: scene.xml:").next();
-        let text = error.and_then(|node| node.accesskit_node().label());
+        let text = error.and_then(|node| {
+            let node = node.accesskit_node();
+            node.label().or_else(|| node.value())
+        });
         window.state_mut().state.execute(Request::Dismiss);
         window.run_steps(2);
         text

@@ -334,10 +334,8 @@ impl Edited {
     fn only_pending_changed_since(&self, other: usize) -> bool {
         let (from, to) = (self.done.min(other), self.done.max(other));
         let mut between = self.steps.range(from..to);
-        between.all(|step| {
-            matches!(&step.edit, Edit::SetPending(_) | Edit::PendShapes(_) | Edit::DropPending(_))
-                || matches!(&step.edit, Edit::PoseLine(line) if line.makes_pending())
-        })
+        between
+            .all(|step| matches!(step.edit, Edit::SetPending(_) | Edit::PendShapes(_) | Edit::DropPending(_)))
     }
 
     /// Returns the applied steps that the last save does not contain.

@@ -13,9 +13,6 @@ pub enum MovieRenderError {
     /// A frame cannot be drawn.
     #[error(transparent)]
     Graphics(#[from] GraphicsError),
-    /// Several samples were asked for.
-    #[error("only 1 so far")]
-    Samples,
     /// The folder of parts cannot be created; contains the folder and the reason.
     #[error("{0}")]
     Folder(String),

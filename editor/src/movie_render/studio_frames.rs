@@ -2,10 +2,9 @@
 
 use super::error::MovieRenderError;
 use super::frame_subject::FrameSubject;
-use super::samples::{SampleSettings, render_sample_frame};
 use super::source::{FrameSource, RenderedFrame};
 use dragonfly_anim::stage::time::StageRate;
-use dragonfly_picture::{PictureSettings, Studio, between};
+use dragonfly_picture::{FrameSampling, PictureSettings, Studio, between};
 
 /// Renders the frames of a scene or a take, with a device of its own.
 pub struct StudioFrames {
@@ -14,7 +13,6 @@ pub struct StudioFrames {
     /// The settings of every frame; only the time changes.
     settings: PictureSettings,
     rate: StageRate,
-    sampling: SampleSettings,
 }
 
 impl StudioFrames {
@@ -24,9 +22,9 @@ impl StudioFrames {
         subject: FrameSubject,
         settings: PictureSettings,
         rate: StageRate,
-        sampling: SampleSettings,
     ) -> Self {
-        Self { studio, subject, settings, rate, sampling }
+        let sampling = FrameSampling { rate, ..settings.sampling };
+        Self { studio, subject, settings: PictureSettings { sampling, ..settings }, rate }
     }
 
     /// Sets the time of frame `number`.
@@ -48,10 +46,7 @@ impl StudioFrames {
 impl FrameSource for StudioFrames {
     fn frame(&mut self, number: u64) -> Result<RenderedFrame, MovieRenderError> {
         self.seek(number);
-        let Self { studio, subject, settings, sampling, rate } = self;
-        if sampling.samples > 1 {
-            return render_sample_frame(studio, subject, settings, (*sampling, *rate));
-        }
+        let Self { studio, subject, settings, rate: _ } = self;
         let picture = match subject {
             FrameSubject::Scene(view) => studio.render_scene(view, settings)?,
             FrameSubject::Take { loaded, .. } => studio.render(loaded, settings)?,

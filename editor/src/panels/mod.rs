@@ -37,6 +37,7 @@ pub mod export;
 pub mod file_choice;
 mod foot_contacts;
 mod frame_rate;
+mod hidden_pointer;
 pub mod hierarchy;
 pub mod history;
 pub mod icons;
@@ -114,7 +115,6 @@ pub mod timeline;
 mod toast;
 pub mod tool_drag;
 pub mod tool_state;
-mod tooltip_closer;
 mod transport;
 pub mod viewport;
 mod waveform;
@@ -131,7 +131,7 @@ pub use settings::Settings;
 pub use state::State;
 
 use egui::Ui;
-use tooltip_closer::{ModalKind, TooltipCloser};
+use hidden_pointer::{HiddenPointer, ModalKind};
 
 /// Every panel.
 pub fn all() -> Vec<Box<dyn Panel>> {
@@ -163,7 +163,6 @@ pub struct Desk {
     overlays: overlays::Overlays,
     dialogs: dialogs::Dialogs,
     toast: toast::Toast,
-    tooltips: TooltipCloser,
 }
 
 impl Desk {
@@ -172,8 +171,7 @@ impl Desk {
         let panels = all();
         let layout = Layout::parse(layout, &panels);
         let (overlays, dialogs) = (overlays::Overlays::default(), dialogs::Dialogs::default());
-        let (toast, tooltips) = (toast::Toast::default(), TooltipCloser::default());
-        Self { panels, layout, overlays, dialogs, toast, tooltips }
+        Self { panels, layout, overlays, dialogs, toast: toast::Toast::default() }
     }
 
     /// Returns the layout as the text of a layout file, if it changed since the last call.
@@ -200,7 +198,7 @@ impl Desk {
     pub fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         commands::Keymap::install(&context.settings.keys, ui.ctx());
         close_menus_beside_a_drag(ui.ctx());
-        let hidden = self.tooltips.begin(ui.ctx(), context);
+        let hidden = HiddenPointer::begin(ui.ctx(), context);
         let theme = theme::Theme::of(ui);
         let bar = egui::Frame::NONE.fill(theme.bar);
         egui::Panel::top("menu").exact_size(style::BAR).frame(bar).show_separator_line(false).show(

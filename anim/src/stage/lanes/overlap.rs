@@ -51,11 +51,13 @@ pub(in crate::stage) struct ClipOverlap {
 }
 
 impl ClipOverlap {
-    /// Creates the overlap of a clip with one that ends at `before`.
-    fn new(element: &ScriptElement, own: ActionTimes, before: StageTime) -> Self {
-        let length = own.stop - own.begin;
+    /// Creates the overlap of a clip with the one before it.
+    fn new(element: &ScriptElement, own: ActionTimes, earlier: &BegunClip) -> Self {
+        let (length, before) = (own.stop - own.begin, earlier.stop);
         let is_inside = before > own.stop && !is_same(before, own.stop);
         let fade = INSIDE.min(StageTime::from_ticks(length.ticks() / 2));
+        // Where both begin at once, nothing of the other one is seen before.
+        let fade_in = if is_same(earlier.begin, own.begin) { StageTime::ZERO } else { fade };
         let mix = match own.stop <= before {
             // Its length may not be known yet.
             _ if length <= MILLISECOND => ClipMix::default(),
@@ -63,9 +65,9 @@ impl ClipOverlap {
             // A way without a take is about the place, which is not given back.
             true if element.value("take").is_none() => ClipMix::default(),
             true if is_inside && element.value("fill") != Some("hold") => {
-                ClipMix { fade_in: fade, fade_out: fade }
+                ClipMix { fade_in, fade_out: fade }
             }
-            true => ClipMix { fade_in: fade, fade_out: StageTime::ZERO },
+            true => ClipMix { fade_in, fade_out: StageTime::ZERO },
         };
         Self { until: before.min(own.stop), is_inside, mix }
     }
@@ -73,6 +75,7 @@ impl ClipOverlap {
 
 /// A clip that began earlier in a lane.
 struct BegunClip {
+    begin: StageTime,
     stop: StageTime,
     is_released: bool,
 }
@@ -118,13 +121,13 @@ pub(in crate::stage) fn visit_clips(
         while begun.last().is_some_and(is_gone) {
             begun.pop();
         }
-        let until = begun.last().map(|last| last.stop).filter(|&last| last > own.begin + MILLISECOND);
-        let is_released = visit(action, until.map(|until| ClipOverlap::new(element, own, until)));
+        let last = begun.last().filter(|last| last.stop > own.begin + MILLISECOND);
+        let is_released = visit(action, last.map(|last| ClipOverlap::new(element, own, last)));
         if !is_released {
             // It is held after its end, over all that began earlier.
             begun.clear();
         }
-        begun.push(BegunClip { stop: own.stop, is_released });
+        begun.push(BegunClip { begin: own.begin, stop: own.stop, is_released });
     }
 }
 

@@ -68,7 +68,6 @@ mod paste_pose;
 mod paste_shapes;
 mod pend_shapes;
 pub(crate) mod pose;
-mod pose_line;
 mod reduce_keys;
 pub(crate) mod reference_map;
 mod remove_travel;
@@ -215,7 +214,6 @@ edits! {
     "set_shape_keys" => set_shape_keys::SetShapeKeys,
     "offset_shapes" => offset_shapes::OffsetShapes,
     "pend_shapes" => pend_shapes::PendShapes,
-    "pose_line" => pose_line::PoseLine,
     "script" => edit_script::EditScript,
 }
 

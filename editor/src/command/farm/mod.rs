@@ -194,6 +194,33 @@ mod tests {
     }
 
     #[test]
+    fn jobs_of_parts_that_are_counted_stay_as_they_were() {
+        let job = FarmJob::sharded("a", ["convert".to_owned()], 12).expect("a job");
+        let text = |engine: FarmEngine| engine.text(&job).expect("a job file");
+        assert_eq!(
+            text(FarmEngine::Slurm),
+            "#!/bin/sh\n#SBATCH --job-name=a\n#SBATCH --array=1-12\n#SBATCH --requeue\n\
+             exec dragonfly convert --shard \"$SLURM_ARRAY_TASK_ID\"/12\n"
+        );
+        let flamenco = text(FarmEngine::Flamenco);
+        let lines = [
+            "function compileJob(job) {\n    for (let part = 1; part <= 12; part++) {\n        const task",
+            "        const args = [\"convert\",\"--shard\"].concat([part + \"/12\"]);\n",
+            "        job.addTask(task);\n    }\n}\n",
+        ];
+        assert!(lines.iter().all(|line| flamenco.contains(line)), "{flamenco}");
+        let opencue = text(FarmEngine::Opencue);
+        let lines = [
+            "    <layers>\n      <layer name=\"parts\" type=\"Render\">\n        <cmd>",
+            "        <range>1-12</range>\n        <chunk>1</chunk>\n        <services>\n",
+            "      </layer>\n    </layers>\n    <depends/>\n  </job>\n</spec>\n",
+        ];
+        assert!(lines.iter().all(|line| opencue.contains(line)), "{opencue}");
+        let openjd = text(FarmEngine::Openjd);
+        assert!(openjd.contains("\"range\": \"1-12\"") && openjd.contains("\"name\": \"Parts\""), "{openjd}");
+    }
+
+    #[test]
     fn every_engine_gets_the_first_frame_of_each_part_and_the_command_after_them() {
         let arguments = ["movie", "it's a duel.xml"].map(str::to_owned);
         let numbers = PartNumbers { first: 48, step: 48, count: 3 };

@@ -5,11 +5,12 @@ use super::FarmJob;
 pub(super) fn text(job: &FarmJob) -> Result<String, String> {
     let name = job.name;
     let mut layers = layer("parts", &job.shell_line("#IFRAME#"), &job.numbers.range("x"));
-    let mut depends = "<depends/>".to_owned();
+    let mut end = "    <depends/>\n  </job>".to_owned();
     if let Some(last) = job.last_shell_line() {
         layers.push_str(&layer("join", &last, "1-1"));
-        depends = format!(
-            r#"<depends>
+        end = format!(
+            r#"  </job>
+  <depends>
     <depend type="LAYER_ON_LAYER" anyframe="False">
       <depjob>{name}</depjob>
       <deplayer>join</deplayer>
@@ -32,8 +33,7 @@ pub(super) fn text(job: &FarmJob) -> Result<String, String> {
     <maxretries>2</maxretries>
     <layers>
 {layers}    </layers>
-  </job>
-  {depends}
+{end}
 </spec>
 "#
     ))

@@ -1,7 +1,7 @@
 //! The arguments of `dragonfly movie`.
 
 use super::super::Failure;
-use super::super::choice::{File, TakeChoice, finite};
+use super::super::choice::{File, TakeChoice};
 use super::super::farm::FarmEngine;
 use super::super::import_options::ImportArguments;
 use super::super::render::RenderView;
@@ -9,7 +9,6 @@ use super::super::scene::{ScriptChoice, ShotChoice};
 use super::frames_argument::FramesArgument;
 use super::printer::ProgressChoice;
 use super::rate;
-use crate::movie_render::SampleSettings;
 use dragonfly_anim::stage::time::StageRate;
 use dragonfly_movie::{GROUP, MOVIE_FORMATS};
 use std::num::NonZeroU64;
@@ -49,12 +48,6 @@ pub(in crate::command) struct MovieArguments {
     /// Frames per second, such as 24, 29.97 or 30000/1001 [default: those of the scene or file, or 24]
     #[arg(long, value_name = "FPS", value_parser = rate::parse)]
     pub(super) fps: Option<StageRate>,
-    /// Number of samples of each frame, which smooth edges and blur what moves
-    #[arg(long, value_name = "COUNT", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=4096))]
-    pub(super) samples: u32,
-    /// Part of a frame during which several samples are spread, degrees: 360 is the whole frame
-    #[arg(long, value_name = "DEG", default_value = "180", value_parser = shutter)]
-    pub(super) shutter: f32,
     /// Format [default: by the extension of the output; y4m for standard output]
     #[arg(long, value_name = "FORMAT", value_parser = clap::builder::PossibleValuesParser::new(MOVIE_FORMATS.iter().map(|format| format.name)))]
     pub(super) format: Option<String>,
@@ -101,21 +94,8 @@ impl MovieArguments {
         let path = self.file.clone().ok_or_else(|| Failure::input("FILE", "is missing"))?;
         Ok(File::new(path, self.import.clone()))
     }
-
-    /// Returns the samples of each frame.
-    pub(super) fn sampling(&self) -> SampleSettings {
-        SampleSettings { samples: self.samples, shutter: self.shutter }
-    }
 }
 
 fn default_chunk() -> NonZeroU64 {
     NonZeroU64::MIN.saturating_add(GROUP - 1)
-}
-
-/// Parses the angle of a shutter.
-fn shutter(text: &str) -> Result<f32, String> {
-    match finite(text)? {
-        angle if (0.0..=360.0).contains(&angle) => Ok(angle),
-        _ => Err("must be from 0 to 360 degrees".to_owned()),
-    }
 }

@@ -108,9 +108,9 @@ impl MovieContent {
     }
 
     /// Returns the identity of what the movie shows.
-    pub(super) fn tag(&self, arguments: &MovieArguments, cancel: &Cancel) -> Result<String, Failure> {
+    pub(super) fn tag(&self, cancel: &Cancel) -> Result<String, Failure> {
         let content = content_hash(&self.source, cancel)?;
-        let settings = format!("{} {:?} {:?}", self.about, self.settings, arguments.sampling());
+        let settings = format!("{} {:?}", self.about, self.settings);
         Ok(movie_tag(content, &settings))
     }
 
@@ -126,8 +126,8 @@ impl MovieContent {
     }
 
     /// Creates a studio that renders the frames.
-    pub(super) fn into_frames(self, arguments: &MovieArguments) -> Result<StudioFrames, Failure> {
+    pub(super) fn into_frames(self) -> Result<StudioFrames, Failure> {
         let Self { subject, settings, rate, .. } = self;
-        Ok(StudioFrames::new(studio()?, subject, settings, rate, arguments.sampling()))
+        Ok(StudioFrames::new(studio()?, subject, settings, rate))
     }
 }

@@ -11,7 +11,6 @@ impl From<MovieRenderError> for Failure {
         match error {
             MovieRenderError::Movie(error) => error.into(),
             MovieRenderError::Graphics(error) => refusal(error),
-            MovieRenderError::Samples => Self::input("--samples", error),
             MovieRenderError::Folder(reason) => Self::Input(reason),
             MovieRenderError::Thread(_) | MovieRenderError::Encoder | MovieRenderError::Cancelled => {
                 Self::Machine(error.to_string())

@@ -78,7 +78,7 @@ fn render(
     let mut printer = ProgressPrinter::new(arguments.progress, &content.title);
     let settings = MovieSettings {
         coarseness: arguments.quality,
-        tag: content.tag(arguments, cancel)?,
+        tag: content.tag(cancel)?,
         ..MovieSettings::new(content.size(), content.rate)
     };
     let mut warn = |text: &str| printer.tell(MovieNews::Warning(text));
@@ -89,7 +89,7 @@ fn render(
     if content.has_sound() && !format.has_sound {
         warn("its sounds are left out: only an MP4 has sound");
     }
-    let mut source = content.into_frames(arguments)?;
+    let mut source = content.into_frames()?;
     let output = &arguments.output;
     if !is_stdout(output) {
         make_folder(output).map_err(Failure::Input)?;

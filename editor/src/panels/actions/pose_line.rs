@@ -9,7 +9,7 @@ use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::ik::{ActionLine, line_of_action};
 use dragonfly_anim::stage::line::LineSamples;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseLine};
+use dragonfly_document::edit::{BonePose, BoneRef};
 use glam::{Quat, Vec3};
 
 /// Bones that turn, from the first one to the one above the last joint.
@@ -84,13 +84,8 @@ pub(super) fn pose(workspace: &mut Workspace, stroke: &DrawnStroke) -> Option<Ef
         scale: None,
     });
     let turned: Vec<BonePose> = turned.collect();
-    let panels = workspace.read();
-    let take = panels.take_ref().filter(|_| !turned.is_empty())?;
-    let over = panels.offset_scope();
-    let falloff = over.as_ref().and(panels.offset_falloff());
-    let (time, pending) = (panels.time(), over.is_none() && !panels.settings.auto_key);
-    let line = PoseLine { take, time, poses: turned, pending, unstep: true, over, falloff };
-    locks::unlocked(workspace, Effect::Change(Change::Edit(Edit::PoseLine(line), None)))
+    let edit = workspace.read().pose_edit(turned)?;
+    locks::unlocked(workspace, Effect::Change(Change::Edit(edit, None)))
 }
 
 /// Returns the chain that is selected; reports why there is none.

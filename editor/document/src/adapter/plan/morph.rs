@@ -16,7 +16,7 @@ pub(super) fn per_key(track: &MorphTrack) -> usize {
 
 /// Returns the track with its keys moved to the times that `to` returns, without those for which it returns `None`.
 /// Time runs `stretch` times slower, so tangents are divided by it. Where it is negative, `to` reverses the order of
-/// all keys.
+/// all keys. Of keys that come to the same time, the last one is kept.
 pub(crate) fn mapped(
     track: &MorphTrack,
     to: impl Fn(f32) -> Option<f32>,
@@ -28,6 +28,14 @@ pub(crate) fn mapped(
     if track.times.first().is_some_and(|&time| stretches(time)[0] < 0.0) {
         keys.reverse();
     }
+    // Late in a take, times that differ may become the same: the later key stays.
+    keys.dedup_by(|later, earlier| {
+        let is_same = later.0 <= earlier.0;
+        if is_same {
+            earlier.1 = later.1;
+        }
+        is_same
+    });
     let mut weights = Vec::with_capacity(keys.len() * width);
     for &(_, key) in &keys {
         let values = track.weights.get(key * width..(key + 1) * width).unwrap_or(&[]);
