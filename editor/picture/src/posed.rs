@@ -27,6 +27,8 @@ pub struct PosedModel {
     finals: Vec<Mat4>,
     shape: SkeletonShape,
     at: (Option<usize>, f32),
+    /// Whether the pose includes pending poses; `None` where it has to be computed again.
+    standing: Option<bool>,
 }
 
 impl PosedModel {
@@ -40,6 +42,7 @@ impl PosedModel {
             finals: vec![Mat4::IDENTITY; largest],
             shape: SkeletonShape::new(model),
             at: (None, 0.0),
+            standing: None,
             draws: DrawSet::new(Arc::clone(&loaded), 1),
         };
         posed.pose(None, 0.0, false);
@@ -51,6 +54,7 @@ impl PosedModel {
     ///
     /// Bones in `still` are shown at rest.
     pub fn show_takes(&mut self, view: &View, still: &[BoneIndex]) {
+        self.standing = None;
         self.slots = Arc::clone(&view.slots);
         let takes = view.takes_without(still);
         if self.animation.data().takes.len() == takes.len() {
@@ -128,9 +132,12 @@ impl PosedModel {
     }
 
     /// Poses the model at `time` of `take`. With `standing` it includes pending poses; during playback only keys are
-    /// shown. Allocates nothing.
+    /// shown. Allocates nothing; in the pose computed last, it does nothing.
     pub fn pose(&mut self, take: Option<usize>, time: f32, standing: bool) {
-        self.at = (take, time);
+        if self.standing == Some(standing) && self.at == (take, time) {
+            return;
+        }
+        (self.at, self.standing) = ((take, time), Some(standing));
         self.animation.to_root_bone_poses(take, time);
         let slot = take.filter(|_| standing).and_then(|take| self.slots.get(take));
         if let Some(pending) = slot.and_then(|slot| slot.pending_at(time)) {
