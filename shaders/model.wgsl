@@ -1,4 +1,4 @@
-// Surfaces: morphed, skinned, lit.
+// Surfaces: morphed, skinned, lit. Where lamps cast shadows, `shaded_lamp` is that of `shaders/common/shadowed.wgsl`.
 
 struct Surface {
     @builtin(position) position: vec4f,
@@ -9,66 +9,12 @@ struct Surface {
     @location(4) color: vec4f,
 }
 
-// Coordinates of a texture. Rust twin: picture::uniform::TextureUse
-struct TextureUse {
-    // First row of the transformation; w: index of the coordinate set.
-    u: vec4f,
-    // Second row; w: 1 when there is a texture.
-    v: vec4f,
-}
-
-// Rust twin: picture::uniform::MaterialUniform
-struct Material {
-    base_color: vec4f,
-    // w: alpha cutoff of masked surfaces.
-    emissive: vec4f,
-    metallic: f32,
-    roughness: f32,
-    normal_scale: f32,
-    occlusion_strength: f32,
-    phong_ambient: vec4f,
-    phong_diffuse: vec4f,
-    // w: exponent.
-    phong_specular: vec4f,
-    use_phong: u32,
-    unlit: u32,
-    // 0 opaque, 1 mask, 2 blend.
-    alpha_mode: u32,
-    pad: u32,
-    base_color_use: TextureUse,
-    metallic_roughness_use: TextureUse,
-    normal_use: TextureUse,
-    occlusion_use: TextureUse,
-    emissive_use: TextureUse,
-}
-
-@group(2) @binding(0) var<uniform> material: Material;
-@group(2) @binding(1) var base_color_texture: texture_2d<f32>;
-@group(2) @binding(2) var metallic_roughness_texture: texture_2d<f32>;
-@group(2) @binding(3) var normal_texture: texture_2d<f32>;
-@group(2) @binding(4) var occlusion_texture: texture_2d<f32>;
-@group(2) @binding(5) var emissive_texture: texture_2d<f32>;
-@group(2) @binding(6) var base_color_sampler: sampler;
-@group(2) @binding(7) var metallic_roughness_sampler: sampler;
-@group(2) @binding(8) var normal_sampler: sampler;
-@group(2) @binding(9) var occlusion_sampler: sampler;
-@group(2) @binding(10) var emissive_sampler: sampler;
-
 @vertex
 fn vs_model(in: VertexIn, @builtin(vertex_index) index: u32) -> Surface {
     let posed = posed_vertex(in, index);
     return Surface(
         frame.clip_from_world * vec4f(posed.position, 1.0),
         posed.position, posed.normal, posed.tangent, in.uv, in.color);
-}
-
-fn coordinates(use_of: TextureUse, uv: vec4f) -> vec2f {
-    let chosen = vec3f(select(uv.xy, uv.zw, use_of.u.w > 0.5), 1.0);
-    return vec2f(dot(use_of.u.xyz, chosen), dot(use_of.v.xyz, chosen));
-}
-
-fn has_texture(use_of: TextureUse) -> bool {
-    return use_of.v.w > 0.5;
 }
 
 // The normal perturbed by the normal map. Without tangents in the file they are derived from the screen-space
@@ -111,9 +57,11 @@ fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
 // Keeps white surfaces below the white of the screen, so that their shape stays visible.
 const EXPOSURE: f32 = 0.76;
 
-// With `thin`, this share of the light on the far side passes through: wings, leaves, cloth.
+// `form` is the normal of the surface without its normal map. With `thin`, this share of the light on the far side passes through: wings,
+// leaves, cloth.
 fn lit_metallic(
-    base: vec3f, metallic: f32, roughness: f32, normal: vec3f, world: vec3f, view: vec3f, occlusion: f32, thin: f32,
+    base: vec3f, metallic: f32, roughness: f32, normal: vec3f, form: vec3f, world: vec3f, view: vec3f,
+    occlusion: f32, thin: f32,
 ) -> vec3f {
     let diffuse = base * (1.0 - metallic);
     let f0 = mix(vec3f(0.04), base, metallic);
@@ -123,7 +71,7 @@ fn lit_metallic(
     let ambient = mix(studio_ambient(studio_normal), studio_ambient(-studio_normal), 0.5 * thin);
     var light = diffuse * ambient * occlusion;
     for (var index = 0u; index < lamp_count(); index++) {
-        let lamp = lamp_at(index, world);
+        let lamp = shaded_lamp(index, world, form);
         let facing = dot(studio_normal, lamp.direction);
         light += diffuse * lamp.color * max(facing, -facing * thin);
         light += lamp.color * highlight(studio_normal, studio_view, lamp.direction, f0, roughness);
@@ -136,12 +84,12 @@ fn lit_metallic(
 }
 
 // Phong lighting as in thesis §2.1.6.2: ambient, diffuse, and a highlight around the reflected light direction.
-fn lit_phong(base: vec3f, normal: vec3f, world: vec3f, view: vec3f, occlusion: f32) -> vec3f {
+fn lit_phong(base: vec3f, normal: vec3f, form: vec3f, world: vec3f, view: vec3f, occlusion: f32) -> vec3f {
     let studio_normal = studio_from_world(normal);
     let studio_view = studio_from_world(view);
     var light = base * material.phong_ambient.rgb * studio_ambient(studio_normal) * 2.0 * occlusion;
     for (var index = 0u; index < lamp_count(); index++) {
-        let lamp = lamp_at(index, world);
+        let lamp = shaded_lamp(index, world, form);
         let n_dot_l = max(dot(studio_normal, lamp.direction), 0.0);
         light += base * material.phong_diffuse.rgb * lamp.color * n_dot_l;
         let mirrored = reflect(-lamp.direction, studio_normal);
@@ -221,7 +169,8 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
         return shown(base.rgb, alpha);
     }
     if frame.studio.z > 0.5 {
-        let clay = lit_metallic(vec3f(0.50, 0.485, 0.47), 0.0, 0.62, smooth_normal, in.world, view, 1.0, 0.0);
+        let gray = vec3f(0.50, 0.485, 0.47);
+        let clay = lit_metallic(gray, 0.0, 0.62, smooth_normal, smooth_normal, in.world, view, 1.0, 0.0);
         return shown(exposed(clay), alpha);
     }
     if material.unlit == 1u {
@@ -229,12 +178,12 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
     }
     var light: vec3f;
     if material.use_phong == 1u {
-        light = lit_phong(base.rgb, normal, in.world, view, occlusion);
+        light = lit_phong(base.rgb, normal, smooth_normal, in.world, view, occlusion);
     } else {
         // Transparent surfaces also transmit light.
         let thin = select(0.0, 0.8, material.alpha_mode == 2u);
         light = lit_metallic(
-            base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, in.world, view, occlusion, thin);
+            base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, smooth_normal, in.world, view, occlusion, thin);
     }
     return shown(exposed(EXPOSURE * (light + emissive)), alpha);
 }

@@ -10,7 +10,7 @@ const LIGHTS: u32 = 8u;
 struct SceneLight {
     // w: 0 for a sun, 1 for a point light, 2 for a spot light.
     position: vec4f,
-    // Direction in which it shines.
+    // Direction in which it shines; w: 0 without a shadow, 1 for the sun that casts one, 2 and more for the spot lights that do.
     direction: vec4f,
     // Light that a white matte surface reflects where it faces the light, at a distance of 1 if it is no sun.
     color: vec4f,

@@ -7,31 +7,10 @@ struct Affine {
     z: vec4f,
 }
 
-// An instance of a draw. Rust twin: picture::uniform::DrawInstance
-struct Draw {
-    // First matrix of this instance in `palettes`.
-    palette: u32,
-    // Influences per vertex: 0 for an instance that one matrix moves, otherwise 4 or 8.
-    influences: u32,
-    // Number of morph targets, and the index of their first weight in `weights`.
-    morph_targets: u32,
-    morph_weights: u32,
-    vertices: u32,
-    // Tint of a ghost: four bytes, linear RGB and opacity.
-    tint: u32,
-}
-
 @group(1) @binding(0) var<storage, read> palettes: array<Affine>;
 @group(1) @binding(1) var<storage, read> weights: array<f32>;
 // Nine values per vertex and target: position, normal, tangent; target after target.
 @group(1) @binding(2) var<storage, read> deltas: array<f32>;
-
-struct Posed {
-    position: vec3f,
-    normal: vec3f,
-    // w: sign of the bitangent.
-    tangent: vec4f,
-}
 
 fn delta(at: u32) -> vec3f {
     return vec3f(deltas[at], deltas[at + 1u], deltas[at + 2u]);

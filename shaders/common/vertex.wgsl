@@ -11,13 +11,13 @@ struct VertexIn {
     @location(6) joints1: vec4u,
     @location(7) weights0: vec4f,
     @location(8) weights1: vec4f,
-    // Of the instance: palette, influences, morph_targets, morph_weights of its `Draw`, and then vertices, tint.
+    // Of the instance: palette, influences, morph_targets, morph_weights of its `Draw`, and then vertices, tint, posed.
     @location(9) draw0: vec4u,
-    @location(10) draw1: vec2u,
+    @location(10) draw1: vec3u,
 }
 
 fn draw_of(in: VertexIn) -> Draw {
-    return Draw(in.draw0.x, in.draw0.y, in.draw0.z, in.draw0.w, in.draw1.x, in.draw1.y);
+    return Draw(in.draw0.x, in.draw0.y, in.draw0.z, in.draw0.w, in.draw1.x, in.draw1.y, in.draw1.z);
 }
 
 fn posed_vertex(in: VertexIn, index: u32) -> Posed {

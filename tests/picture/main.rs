@@ -23,6 +23,8 @@ mod reference_picture;
 mod samples;
 mod scenes;
 mod shaders;
+mod shadows;
+mod skin_once;
 mod skinning_on_device;
 mod surface_thread;
 mod surfaces;

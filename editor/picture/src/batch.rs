@@ -26,6 +26,8 @@ pub struct DrawBatches {
     solid: Vec<DrawBatch>,
     blended: Vec<DrawBatch>,
     instances: Vec<DrawInstance>,
+    /// Index of the item of each instance.
+    drawn: Vec<u32>,
 }
 
 impl DrawBatches {
@@ -46,7 +48,29 @@ impl DrawBatches {
             solid: Vec::with_capacity(parts.len() * 2),
             blended: Vec::with_capacity(blended),
             instances: Vec::with_capacity(items.len()),
+            drawn: Vec::with_capacity(items.len()),
         }
+    }
+
+    /// Allocates memory for other draws of the same items.
+    pub(super) fn for_the_same_items(&self) -> Self {
+        Self {
+            by_part: self.by_part.clone(),
+            solid: Vec::with_capacity(self.solid.capacity()),
+            blended: Vec::new(),
+            instances: Vec::with_capacity(self.by_part.len()),
+            drawn: Vec::with_capacity(self.by_part.len()),
+        }
+    }
+
+    /// Indices of all items, those of the same part one after another.
+    pub(super) fn by_part(&self) -> &[u32] {
+        &self.by_part
+    }
+
+    /// Index of the item of each of the [`instances`](Self::instances).
+    pub(super) fn drawn(&self) -> &[u32] {
+        &self.drawn
     }
 
     /// Draw calls of the solid surfaces.
@@ -76,6 +100,7 @@ impl DrawBatches {
         self.solid.clear();
         self.blended.clear();
         self.instances.clear();
+        self.drawn.clear();
         for run in self.by_part.chunk_by(|&a, &b| items[a as usize].part() == items[b as usize].part()) {
             let is_solid = |index: &usize| back_to_front.is_none() || !items[*index].blend;
             let solid = || run.iter().map(|&index| index as usize).filter(is_solid);
@@ -84,6 +109,7 @@ impl DrawBatches {
                     let item = &items[index];
                     if item.is_mirrored(palettes) == mirrored && item.may_show(palettes, frustum) {
                         append(&mut self.solid, &mut self.instances, items, index, mirrored, true);
+                        self.drawn.push(index as u32);
                     }
                 }
             }
@@ -109,6 +135,7 @@ impl DrawBatches {
             let shares = !item.double_sided && !is_first;
             let mirrored = item.is_mirrored(palettes);
             append(&mut self.blended, &mut self.instances, items, index, mirrored, shares);
+            self.drawn.push(index as u32);
         }
     }
 }

@@ -3,12 +3,12 @@
 use super::batch::DrawBatches;
 use super::contact::add_boxes;
 use super::frustum::ViewFrustum;
-use super::uniform::{Affine, DrawInstance};
+use super::uniform::{Affine, DrawInstance, NOT_POSED};
 use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::data::{AlphaMode, ModelData, Primitive};
 use dragonfly_document::LoadedModel;
 use glam::{Mat4, Vec3};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -101,6 +101,10 @@ pub struct DrawSet {
     /// Distances and indices of the blended items, farthest first.
     back_to_front: Vec<(f32, u32)>,
     batches: DrawBatches,
+    /// Draw calls of what casts shadows, one list for each map; empty until there is one.
+    casters: Vec<DrawBatches>,
+    /// Number of vertices of a copy that more than one matrix or morph targets move.
+    posed: u64,
     /// Number of this set among all sets, and how often it was written.
     revision: (u64, u64),
 }
@@ -117,7 +121,8 @@ impl DrawSet {
 
     /// Does the same as [`Self::new`] with the layout of the model.
     pub(super) fn with_layout(loaded: Arc<LoadedModel>, layout: PaletteLayout, copies: usize) -> Self {
-        let one = draw_items(&loaded.model, &layout);
+        let mut one = draw_items(&loaded.model, &layout);
+        let posed = number_posed(&mut one);
         let part_boxes = boxes_of_parts(&loaded.model, &one, layout.matrices);
         let mut items = Vec::with_capacity(one.len() * copies);
         for copy in 0..copies {
@@ -126,6 +131,11 @@ impl DrawSet {
                 instance: DrawInstance {
                     palette: item.instance.palette + matrices,
                     morph_weights: item.instance.morph_weights + weights,
+                    posed: match item.instance.posed {
+                        NOT_POSED => NOT_POSED,
+                        // Sets for which this wraps have no room for posed vertices.
+                        first => first.wrapping_add((posed as u32).wrapping_mul(copy as u32)),
+                    },
                     ..item.instance
                 },
                 main_matrix: item.main_matrix + matrices,
@@ -136,6 +146,8 @@ impl DrawSet {
             palettes: vec![Mat4::IDENTITY.into(); layout.matrices * copies.max(1)],
             weights: vec![0.0; layout.weight_count * copies.max(1)],
             batches: DrawBatches::new(&items),
+            casters: Vec::new(),
+            posed,
             back_to_front: Vec::with_capacity(items.iter().filter(|item| item.blend).count()),
             items,
             part_boxes,
@@ -168,6 +180,23 @@ impl DrawSet {
     /// The draw calls that were collected last.
     pub fn batches(&self) -> &DrawBatches {
         &self.batches
+    }
+
+    /// The draw calls of what casts shadows in map number `map`, collected last; `None` before the first.
+    pub fn casters(&self, map: usize) -> Option<&DrawBatches> {
+        self.casters.get(map)
+    }
+
+    /// Returns the number of vertices of all copies that more than one matrix or morph targets move.
+    pub fn posed_vertices(&self) -> u64 {
+        let copies = self.palettes.len() / self.layout.matrices;
+        self.posed.saturating_mul(copies as u64)
+    }
+
+    /// Returns the box around the parts of a copy in its pose; empty without any.
+    pub(super) fn box_of(&self, copy: usize) -> AxisBox {
+        let parts = self.part_boxes.iter().zip(self.palettes_of(copy)).filter(|(part, _)| !part.is_empty());
+        parts.fold(AxisBox::EMPTY, |around, (part, matrix)| around.union(part.moved(&Mat4::from(*matrix))))
     }
 
     /// Number of transparent items.
@@ -230,6 +259,17 @@ impl DrawSet {
         self.batches.collect(&self.items, &self.palettes, None, frustum);
     }
 
+    /// Collects the draw calls of what casts shadows in each of some maps, which show what is inside these frusta. Allocates only for more maps
+    /// than before.
+    pub(super) fn batch_casters(&mut self, maps: impl Iterator<Item = ViewFrustum>) {
+        for (map, frustum) in maps.enumerate() {
+            if map == self.casters.len() {
+                self.casters.push(self.batches.for_the_same_items());
+            }
+            self.casters[map].collect(&self.items, &self.palettes, None, &frustum);
+        }
+    }
+
     /// Collects the draw calls of the solid surfaces inside `frustum`; the blended ones follow by [`Self::add_blended`]. Allocates nothing.
     pub(super) fn batch_solid(&mut self, frustum: &ViewFrustum) {
         self.batches.collect(&self.items, &self.palettes, Some(&[]), frustum);
@@ -255,6 +295,20 @@ fn boxes_of_parts(model: &ModelData, items: &[DrawItem], matrices: usize) -> Vec
         }
     }
     boxes
+}
+
+/// Assigns places among the posed vertices to the items of one copy whose parts more than one matrix or morph targets move. Returns the number
+/// of vertices.
+fn number_posed(items: &mut [DrawItem]) -> u64 {
+    let is_deformed = |item: &&DrawItem| item.instance.influences > 0 || item.instance.morph_targets > 0;
+    // All instances of a part are drawn alike.
+    let deformed: HashSet<(u32, u32)> = items.iter().filter(is_deformed).map(DrawItem::part).collect();
+    let mut next = 0;
+    for item in items.iter_mut().filter(|item| deformed.contains(&item.part())) {
+        item.instance.posed = next as u32;
+        next += u64::from(item.instance.vertices);
+    }
+    next
 }
 
 /// Returns the items of one copy.
@@ -293,6 +347,7 @@ fn draw_items(model: &ModelData, layout: &PaletteLayout) -> Vec<DrawItem> {
                     morph_weights: weights as u32,
                     vertices: primitive.vertices.len() as u32,
                     tint: 0,
+                    posed: NOT_POSED,
                 },
                 center: around.center(),
                 rigid_box: (influences == 0 && primitive.morph_targets.is_empty()).then_some(around),

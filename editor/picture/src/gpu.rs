@@ -57,6 +57,8 @@ pub struct Gpu {
     linear_samples: Option<u32>,
     /// Samples of an image that a pixel may take along a surface seen at a flat angle; 1 is no anisotropic filtering.
     pub anisotropy: u16,
+    /// Whether vertices can be posed in a compute shader.
+    pub(crate) skins_once: bool,
     /// Memory for the textures of a model.
     pub(crate) texture_memory: TextureMemory,
     /// Layout of bind group 0 of all passes of the scene.
@@ -93,6 +95,7 @@ impl Gpu {
         let max_side = device.limits().max_texture_dimension_2d;
         let device_type = adapter.get_info().device_type;
         let (anisotropy, texture_memory) = (anisotropy(device_type), TextureMemory::of(device_type));
+        let skins_once = skins_once(adapter, &device.limits());
         let (frame_layout, frame_group, frame_buffer) = uniform_binding::<FrameUniform>(&device, "frame");
         Ok(Self {
             device,
@@ -104,6 +107,7 @@ impl Gpu {
             display_samples: samples,
             linear_samples,
             anisotropy,
+            skins_once,
             texture_memory,
             frame_layout,
             frame_group,
@@ -227,10 +231,21 @@ fn anisotropy(device: wgpu::DeviceType) -> u16 {
     if device == wgpu::DeviceType::Cpu { 1 } else { 8 }
 }
 
+/// Number of storage buffers of the shader that poses vertices.
+const SKIN_BUFFERS: u32 = 6;
+
+/// Returns whether a device with these limits can pose vertices in a compute shader; almost every one can.
+fn skins_once(adapter: &wgpu::Adapter, limits: &wgpu::Limits) -> bool {
+    adapter.get_downlevel_capabilities().flags.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS)
+        && limits.max_storage_buffers_per_shader_stage >= SKIN_BUFFERS
+}
+
 /// The limits that every adapter supports, raised where this one does: large models need large buffers.
 fn limits(adapter: &wgpu::Limits) -> wgpu::Limits {
     let base = wgpu::Limits::downlevel_defaults().using_resolution(adapter.clone());
+    let storage_buffers = adapter.max_storage_buffers_per_shader_stage.min(SKIN_BUFFERS);
     wgpu::Limits {
+        max_storage_buffers_per_shader_stage: base.max_storage_buffers_per_shader_stage.max(storage_buffers),
         max_buffer_size: adapter.max_buffer_size,
         max_storage_buffer_binding_size: adapter.max_storage_buffer_binding_size,
         ..base

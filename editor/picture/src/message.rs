@@ -1,6 +1,7 @@
 //! Messages to the graphics thread, and its replies.
 
 use super::appearance::AnyAppearance;
+use super::effects::EffectLook;
 use super::error::GraphicsError;
 use super::surface::WindowSurface;
 use super::thumbnail::{Thumbnail, ThumbnailOrder};
@@ -69,6 +70,8 @@ pub struct Look {
     pub shading: Shading,
     /// Whether the surface is drawn.
     pub surface: bool,
+    /// Effects that are on.
+    pub effects: EffectLook,
     /// Color of bones that are neither selected nor hovered, linear RGB.
     pub bone_color: [f32; 3],
     /// Color of selected bones (the accent of the program), linear RGB.
@@ -118,6 +121,7 @@ impl Default for Look {
             hovered: None,
             shading: Shading::Material,
             surface: true,
+            effects: EffectLook::default(),
             bone_color: [0.62, 0.66, 0.72],
             accent: [0.95, 0.38, 0.06],
             hidden: Arc::default(),

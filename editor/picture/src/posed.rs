@@ -183,6 +183,11 @@ impl PosedModel {
         self.draws.batch_alike(frustum);
     }
 
+    /// Collects the draw calls of what casts shadows in each of some maps, as [`DrawSet::batch_casters`] does.
+    pub(super) fn batch_casters(&mut self, maps: impl Iterator<Item = ViewFrustum>) {
+        self.draws.batch_casters(maps);
+    }
+
     /// Places the skeleton's bodies. Allocates nothing.
     pub fn place_bones(&mut self, look: &Look) {
         self.shape.place(self.animation.to_root(), look);

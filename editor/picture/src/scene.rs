@@ -13,12 +13,13 @@ use super::draw_set::DrawSet;
 use super::frustum::ViewFrustum;
 use super::message::{Look, SecondView, Shading};
 use super::posed::PosedModel;
+use super::shadow::{SceneShadows, ShadowedFrame, sun_side};
 use super::skin::SkinPicker;
 use super::thumbnail::ThumbnailOrder;
 use super::uniform::{FrameUniform, LIGHTS, LightUniform, SPOTS};
 use crate::camera::{Camera, CameraRay, Projection};
 use crate::playback::PlaybackClock;
-use dragonfly_anim::bounds::{Bounds, Sphere};
+use dragonfly_anim::bounds::{AxisBox, Bounds, Sphere};
 use dragonfly_anim::data::{BoneIndex, ModelData};
 use dragonfly_document::{LoadedModel, SceneView, View};
 use glam::{Mat4, Vec2, Vec3, Vec4};
@@ -42,6 +43,8 @@ pub struct Scene {
     pub appearances: Appearances,
     /// The controls of the scene.
     pub controls: SceneControls,
+    /// Side of each map of the shadows of a sun, texels.
+    pub shadow_side: u32,
     model: Option<PosedModel>,
     /// The things of a script, which are shown in place of the model.
     cast: Option<PosedScene>,
@@ -54,6 +57,7 @@ pub struct Scene {
     shown: Option<View>,
     /// Bones that are shown at rest.
     still: Vec<BoneIndex>,
+    shadows: SceneShadows,
     uniform: FrameUniform,
     /// Whether handles, lines and helpers are left out of the frame that is prepared.
     is_plain: bool,
@@ -73,6 +77,7 @@ impl Scene {
             background_alpha: 1.0,
             appearances: Appearances::default(),
             controls: SceneControls::default(),
+            shadow_side: sun_side(false),
             model: None,
             cast: None,
             around: None,
@@ -80,6 +85,7 @@ impl Scene {
             skin: None,
             shown: None,
             still: Vec::new(),
+            shadows: SceneShadows::default(),
             uniform: bytemuck::Zeroable::zeroed(),
             is_plain: false,
             sub_frame: None,
@@ -206,6 +212,11 @@ impl Scene {
         &self.still
     }
 
+    /// The shadows of the frame prepared last; `None` without any.
+    pub fn shadows(&self) -> Option<&SceneShadows> {
+        Some(&self.shadows).filter(|shadows| !shadows.is_empty())
+    }
+
     /// This frame's uniform, as prepared last.
     pub fn uniform(&self) -> &FrameUniform {
         &self.uniform
@@ -245,6 +256,7 @@ impl Scene {
                 self.controls.present(&ControlFrame { model, cast, camera, look, appearances });
             }
         }
+        self.shadows = self.frame_shadows();
         self.uniform = self.frame_uniform();
         let frustum = self.frustum();
         match (&mut self.cast, &mut self.model) {
@@ -253,6 +265,24 @@ impl Scene {
                 model.batch(&frustum);
                 if let Some(around) = &mut self.around {
                     around.scene_mut().batch(eye, back, &frustum);
+                }
+            }
+            (None, None) => {}
+        }
+        self.batch_casters();
+    }
+
+    /// Collects the draw calls of what casts shadows.
+    fn batch_casters(&mut self) {
+        if self.shadows.is_empty() {
+            return;
+        }
+        match (&mut self.cast, &mut self.model) {
+            (Some(cast), _) => cast.batch_casters(self.shadows.frusta()),
+            (None, Some(model)) => {
+                model.batch_casters(self.shadows.frusta());
+                if let Some(around) = &mut self.around {
+                    around.scene_mut().batch_casters(self.shadows.frusta());
                 }
             }
             (None, None) => {}
@@ -370,6 +400,7 @@ impl Scene {
         let (contact, spot_count) = self.contact(self.bounds().sphere.radius);
         let mut lights = [LightUniform::default(); LIGHTS];
         let light_count = self.cast.as_ref().map_or(0, |cast| cast.write_lights(&mut lights));
+        self.shadows.mark(&mut lights);
         let sampling = self.sub_frame.map_or(Vec4::ZERO, |sub_frame| {
             Vec4::new(1.0, sub_frame.threshold, sub_frame.light.x, sub_frame.light.y)
         });
@@ -410,9 +441,42 @@ impl Scene {
         (spots, MODEL_SPOTS)
     }
 
+    /// Returns the shadows of a frame: those of the lights of a scene, or of the studio, as the look asks for them.
+    fn frame_shadows(&self) -> SceneShadows {
+        let (look, effects) = (&self.look, self.look.effects);
+        let may_be = effects.studio_shadows || effects.shadows && self.cast.is_some();
+        if !may_be || !look.surface || look.shading == Shading::Unlit {
+            return SceneShadows::default();
+        }
+        let size = self.size();
+        SceneShadows::of(&ShadowedFrame {
+            effects,
+            camera: &self.seen,
+            aspect: size.x / size.y.max(1.0),
+            drawn: self.drawn_bounds(),
+            casters: self.posed_bounds(),
+            lights: self.cast.as_ref().map_or(&[][..], PosedScene::lights),
+            side: self.shadow_side,
+        })
+    }
+
+    /// Returns a sphere around everything that is drawn, as it is posed.
+    fn posed_bounds(&self) -> Sphere {
+        let model = || self.model.as_ref().map_or(AxisBox::EMPTY, |model| model.draws().box_of(0));
+        let own = match &self.cast {
+            Some(cast) => cast.bounds().sphere,
+            None => around_box(&model()),
+        };
+        self.with_around(own)
+    }
+
     /// Returns a sphere around everything that is drawn.
     fn drawn_bounds(&self) -> Sphere {
-        let own = self.bounds().sphere;
+        self.with_around(self.bounds().sphere)
+    }
+
+    /// Returns a sphere around `own` and the scene around the model.
+    fn with_around(&self, own: Sphere) -> Sphere {
         let Some(around) = self.around_in_view().map(|around| around.bounds().sphere) else { return own };
         let radius = own.radius.max(own.center.distance(around.center) + around.radius);
         Sphere { radius, ..own }
@@ -425,6 +489,14 @@ impl Scene {
         }
         self.model.as_ref().map_or_else(Bounds::default, |model| *model.bounds())
     }
+}
+
+/// Returns a sphere around a box; one without size where that is empty.
+fn around_box(around: &AxisBox) -> Sphere {
+    if around.is_empty() {
+        return Sphere::default();
+    }
+    Sphere { center: around.center(), radius: around.half().length() }
 }
 
 /// Distance between the fine lines of the ground, a power of ten, and their fade-in, 0..1.

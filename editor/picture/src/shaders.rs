@@ -22,8 +22,13 @@ const FRAME: ShaderFile = part!("common/frame.wgsl");
 const COLOR: ShaderFile = part!("common/color.wgsl");
 const DISPLAY: ShaderFile = part!("common/display.wgsl");
 const STUDIO: ShaderFile = part!("common/studio.wgsl");
+const DRAW: ShaderFile = part!("common/draw.wgsl");
 const POSE: ShaderFile = part!("common/pose.wgsl");
 const VERTEX: ShaderFile = part!("common/vertex.wgsl");
+const POSED: ShaderFile = part!("common/posed.wgsl");
+const MATERIAL: ShaderFile = part!("common/material.wgsl");
+const UNSHADOWED: ShaderFile = part!("common/unshadowed.wgsl");
+const SHADOWED: ShaderFile = part!("common/shadowed.wgsl");
 
 /// Declares the constants of shaders and [`ALL`] from a list of `NAME = "file name": common parts;` lines.
 macro_rules! shaders {
@@ -41,10 +46,22 @@ shaders! {
     BACKGROUND = "background": FRAME COLOR;
     /// The reference picture.
     REFERENCE = "reference": FRAME COLOR DISPLAY;
+    /// Morphed and skinned vertices, for several passes.
+    SKIN = "skin": DRAW POSE;
+    /// Maps of shadows.
+    SHADOW = "shadow": DRAW POSE VERTEX MATERIAL;
+    /// The same of vertices that were posed before.
+    SHADOW_POSED = "shadow": DRAW POSED MATERIAL;
     /// Skinned and lit surfaces.
-    MODEL = "model": FRAME COLOR DISPLAY STUDIO POSE VERTEX;
+    MODEL = "model": FRAME COLOR DISPLAY STUDIO DRAW POSE VERTEX MATERIAL UNSHADOWED;
+    /// The same with shadows of lamps.
+    MODEL_SHADOWED = "model": FRAME COLOR DISPLAY STUDIO DRAW POSE VERTEX MATERIAL SHADOWED;
+    /// The same of vertices that were posed before.
+    MODEL_POSED = "model": FRAME COLOR DISPLAY STUDIO DRAW POSED MATERIAL SHADOWED;
+    /// Shadows of lamps on the ground.
+    SHADOW_CATCHER = "shadow_catcher": FRAME COLOR STUDIO SHADOWED;
     /// Surfaces of ghosts.
-    GHOST = "ghost": FRAME COLOR DISPLAY POSE VERTEX;
+    GHOST = "ghost": FRAME COLOR DISPLAY DRAW POSE VERTEX;
     /// The ground grid.
     GRID = "grid": FRAME COLOR DISPLAY;
     /// The bones.

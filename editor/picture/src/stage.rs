@@ -13,6 +13,7 @@ use super::losses::LossTolerance;
 use super::pass::{self, FrameCommands, Pass, PassLayer, Passes, SharedPass, Surroundings};
 use super::readback;
 use super::scene::Scene;
+use super::shadow::sun_side;
 use super::surface::{Acquired, WindowSurface};
 use super::target::{SceneTarget, begin_window};
 use image::RgbaImage;
@@ -101,9 +102,11 @@ impl RenderStage {
         for pass in &passes.list {
             device.add_listener(pass::listener(pass));
         }
+        let mut scene = Scene::new(now);
+        scene.shadow_side = sun_side(device.is_software());
         Self {
             device,
-            scene: Scene::new(now),
+            scene,
             passes,
             target: None,
             second: None,
@@ -142,6 +145,21 @@ impl RenderStage {
     /// Number of pipelines and bind groups that were set for these draw calls.
     pub fn state_changes(&self) -> usize {
         self.passes.model.borrow().state_changes()
+    }
+
+    /// Number of draw calls for the maps of shadows in the last frame of the scene.
+    pub fn shadow_draws(&self) -> usize {
+        self.passes.model.borrow().shadow_draws()
+    }
+
+    /// Number of vertices that were posed once for several passes in the last frame of the scene.
+    pub fn skinned_vertices(&self) -> u64 {
+        self.passes.model.borrow().skinned_vertices()
+    }
+
+    /// Sets how many bytes of vertices may be posed once for several passes; 0 poses them in each pass.
+    pub fn set_skin_budget(&mut self, bytes: u64) {
+        self.passes.model.borrow_mut().set_skin_budget(bytes);
     }
 
     /// Sets the size of the window, physical pixels; zero when it is minimized.
@@ -373,6 +391,7 @@ impl RenderStage {
 
     fn after_reset(&mut self, DeviceLoss { reason, patience }: DeviceLoss) {
         self.forget_textures();
+        self.scene.shadow_side = sun_side(self.device.is_software());
         (self.scene_changed, self.window_changed) = (true, true);
         if patience == LossTolerance::Left || !self.device.parameters().faults.pauses() {
             self.events.push(DeviceEvent::Recovered(reason));

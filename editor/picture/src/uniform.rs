@@ -53,7 +53,7 @@ pub struct FrameUniform {
 pub struct LightUniform {
     /// Meters; w: 0 for a sun, 1 for a point light, 2 for a spot light.
     pub position: Vec4,
-    /// Direction in which it shines, unit length.
+    /// Direction in which it shines, unit length; w: 0 without a shadow, 1 for the sun that casts one, 2 and more for the spot lights that do.
     pub direction: Vec4,
     /// Linear RGB that a white matte surface reflects where it faces the light, for a point or spot light at a distance of 1.
     pub color: Vec4,
@@ -92,7 +92,7 @@ impl From<Affine> for Mat4 {
     }
 }
 
-/// An instance of a draw, in a vertex buffer. WGSL twin: `Draw` in `shaders/common/pose.wgsl`.
+/// An instance of a draw, in a vertex buffer. WGSL twin: `Draw` in `shaders/common/draw.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct DrawInstance {
@@ -108,7 +108,15 @@ pub struct DrawInstance {
     pub vertices: u32,
     /// Tint of a ghost: four bytes, linear RGB and opacity.
     pub tint: u32,
+    /// Index of its first vertex among the posed ones of all instances; [`NOT_POSED`] where its vertices are never posed before they are drawn.
+    pub posed: u32,
 }
+
+/// Value of [`DrawInstance::posed`] of an instance that one matrix moves: posing its vertices before drawing would gain nothing.
+pub const NOT_POSED: u32 = u32::MAX;
+
+/// Bytes of a posed vertex: position, normal and tangent. WGSL twin: `PosedVertex` in `shaders/common/draw.wgsl`.
+pub const POSED_BYTES: u64 = 40;
 
 /// Use of a texture by a material. WGSL twin: `TextureUse` in `shaders/model.wgsl`.
 #[repr(C)]

@@ -26,10 +26,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Ratio of the sides of images in these tests: that of the scripts.
-const SIZE: [u32; 2] = [320, 180];
+pub(crate) const SIZE: [u32; 2] = [320, 180];
 
 /// Returns the text of a script with a cast and actions.
-fn script(cast: &str, actions: &str) -> String {
+pub(crate) fn script(cast: &str, actions: &str) -> String {
     format!("<script version=\"1\" fps=\"24\" size=\"320x180\"><cast>{cast}</cast>{actions}</script>")
 }
 
@@ -78,7 +78,7 @@ fn view_in(context: &ScriptContext, text: &str, loaded: &Arc<LoadedModel>) -> Ar
 }
 
 /// Returns the scene of a view at a time, as it is seen through its shots.
-fn shown(view: &Arc<SceneView>, seconds: f32) -> Scene {
+pub(crate) fn shown(view: &Arc<SceneView>, seconds: f32) -> Scene {
     let now = Instant::now();
     let mut scene = Scene::new(now);
     scene.show_scene(view);
@@ -113,7 +113,8 @@ fn drawn_at(scene: &Scene, point: Vec3) -> Option<Vec2> {
     (clip.w > 0.0).then(|| clip.truncate().truncate() / clip.w)
 }
 
-fn settings(through: ThroughCamera, time: f32) -> PictureSettings {
+/// Returns settings of a small image of a scene over nothing.
+pub(crate) fn settings(through: ThroughCamera, time: f32) -> PictureSettings {
     let look = Look { through, ..Look::default() };
     PictureSettings {
         size: SIZE,

@@ -95,10 +95,7 @@ impl CastGroup {
             let carrier = instance.bone.map_or(Mat4::IDENTITY, |bone| mat4(pose.get(bone as usize)));
             *matrix = scene_from_model.after(&final_pose(carrier, instance.to_bone).into());
         }
-        let parts = self.draws.part_boxes().iter().zip(self.draws.palettes_of(copy));
-        let around = parts
-            .filter(|(part, _)| !part.is_empty())
-            .fold(AxisBox::EMPTY, |around, (part, matrix)| around.union(part.moved(&Mat4::from(*matrix))));
+        let around = self.draws.box_of(copy);
         if around.is_empty() { AxisBox::at(place.w_axis.truncate()) } else { around }
     }
 }

@@ -41,6 +41,8 @@ pub struct SceneLight {
     pub position: Vec3,
     /// Direction in which it shines, unit length.
     pub direction: Vec3,
+    /// Whether things cast shadows in it.
+    pub casts_shadow: bool,
     /// Linear light, red, green and blue, with the strength. A white matte surface that faces a sun of strength π is as bright as white; one
     /// that faces a point or spot of that strength is at a distance of a meter.
     pub color: Vec3,
@@ -61,6 +63,7 @@ pub(super) fn of_script(view: &SceneView, plan: &StagePlan, hidden: &[bool]) -> 
             own_direction: value("direction").and_then(direction).unwrap_or(Vec3::NEG_Y),
             position: Vec3::ZERO,
             direction: Vec3::NEG_Y,
+            casts_shadow: value("shadow") != Some("no"),
             color: Vec3::ZERO,
         }
     };
@@ -85,11 +88,15 @@ pub(super) fn update(lights: &mut [SceneLight], state: &StageScene) {
     }
 }
 
+/// Returns the lights that are not dark.
+pub(crate) fn bright(lights: &[SceneLight]) -> impl Iterator<Item = &SceneLight> {
+    lights.iter().filter(|light| light.color.max_element() > 0.0)
+}
+
 /// Writes the lights that are not dark for the device, up to the length of `out`. Returns their number.
 pub(super) fn write(lights: &[SceneLight], out: &mut [LightUniform]) -> usize {
-    let bright = lights.iter().filter(|light| light.color.max_element() > 0.0);
     let mut count = 0;
-    for (light, out) in bright.zip(out) {
+    for (light, out) in bright(lights).zip(out) {
         let kind = match light.kind {
             LightKind::Sun => 0.0,
             LightKind::Point => 1.0,

@@ -10,6 +10,7 @@ mod pick;
 mod placeholder;
 
 pub use lens::camera as viewport_camera;
+pub(crate) use light::bright;
 pub use light::{LightKind, SceneLight};
 pub use pick::{PickedThing, SurfaceHit};
 pub(crate) use placeholder::made_model;
@@ -257,6 +258,13 @@ impl PosedScene {
                 _ if after > before => self.runs.push((group, before..after)),
                 _ => {}
             }
+        }
+    }
+
+    /// Collects the draw calls of what casts shadows in each of some maps, as [`DrawSet::batch_casters`] does.
+    pub(super) fn batch_casters(&mut self, maps: impl Iterator<Item = ViewFrustum> + Clone) {
+        for group in &mut self.groups {
+            group.draws_mut().batch_casters(maps.clone());
         }
     }
 

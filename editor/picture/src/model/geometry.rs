@@ -1,13 +1,14 @@
 //! Vertices and triangles on the device.
 
+use crate::gpu::Gpu;
 use crate::uniform::DrawInstance;
 use bytemuck::{Pod, Zeroable};
 use dragonfly_anim::data::{Influence, Primitive};
 use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-/// A vertex on the device. WGSL twin: `VertexIn` in `shaders/model.wgsl`. Attributes that a primitive lacks get
-/// neutral values.
+/// A vertex on the device. WGSL twins: `VertexIn` in `shaders/common/vertex.wgsl`, `vertex_words` in `shaders/skin.wgsl`. Attributes that a
+/// primitive lacks get neutral values.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct GpuVertex {
@@ -35,7 +36,7 @@ const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
 
 /// Attributes of [`DrawInstance`], by shader location.
 const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
-    wgpu::vertex_attr_array![9 => Uint32x4, 10 => Uint32x2];
+    wgpu::vertex_attr_array![9 => Uint32x4, 10 => Uint32x3];
 
 /// Layouts of vertices and of instances in their buffers.
 pub(super) const VERTICES: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
@@ -64,10 +65,10 @@ pub(super) struct GpuGeometry {
 }
 
 impl GpuGeometry {
-    /// Uploads `primitive` to `device`.
-    pub(super) fn new(device: &wgpu::Device, primitive: &Primitive) -> Self {
+    /// Uploads `primitive` to the device.
+    pub(super) fn new(gpu: &Gpu, primitive: &Primitive) -> Self {
         let buffer = |label, contents: &[u8], usage| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
                 contents,
                 usage,
@@ -76,8 +77,11 @@ impl GpuGeometry {
         let vertices: Vec<GpuVertex> =
             (0..primitive.vertices.len()).map(|index| vertex(primitive, index)).collect();
         let deltas = (!primitive.morph_targets.is_empty()).then(|| deltas(primitive));
+        // The shader that poses vertices reads them as words.
+        let words = if gpu.skins_once { wgpu::BufferUsages::STORAGE } else { wgpu::BufferUsages::empty() };
+        let usage = wgpu::BufferUsages::VERTEX | words;
         Self {
-            vertices: buffer("vertices", bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
+            vertices: buffer("vertices", bytemuck::cast_slice(&vertices), usage),
             indices: buffer("indices", bytemuck::cast_slice(&primitive.indices), wgpu::BufferUsages::INDEX),
             count: primitive.indices.len() as u32,
             deltas: deltas.map(|deltas| {

@@ -2,8 +2,8 @@
 
 use super::geometry::VERTICES;
 use crate::gpu::{Gpu, SceneEncoding, scene_depth};
-use crate::shaders;
-use crate::uniform::Affine;
+use crate::shaders::{self, Shader};
+use crate::uniform::{Affine, POSED_BYTES};
 use std::collections::HashMap;
 
 /// Faces that are culled.
@@ -17,6 +17,39 @@ pub(super) enum Cull {
     Back,
 }
 
+/// The shader of a surface, by what else is drawn in the frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum ShaderVariant {
+    /// Lamps cast no shadows, and vertices are posed where they are drawn.
+    Plain,
+    /// Lamps cast shadows.
+    Shadowed,
+    /// Lamps cast shadows, and vertices were posed before.
+    ShadowedPosed,
+}
+
+impl ShaderVariant {
+    /// Number of variants.
+    const COUNT: usize = 3;
+
+    /// Returns the variant for a frame, and vertices that were posed before or are not.
+    pub(super) fn of(shadows: bool, posed: bool) -> Self {
+        match (shadows, posed) {
+            (false, _) => Self::Plain,
+            (true, false) => Self::Shadowed,
+            (true, true) => Self::ShadowedPosed,
+        }
+    }
+
+    fn shader(self) -> &'static Shader {
+        match self {
+            Self::Plain => &shaders::MODEL,
+            Self::Shadowed => &shaders::MODEL_SHADOWED,
+            Self::ShadowedPosed => &shaders::MODEL_POSED,
+        }
+    }
+}
+
 /// Everything that distinguishes one pipeline from another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct PipelineKind {
@@ -28,23 +61,30 @@ pub(super) struct PipelineKind {
     pub(super) cull: Cull,
     /// Whether front faces wind clockwise, because the pose mirrors.
     pub(super) mirrored: bool,
+    /// The shader.
+    pub(super) variant: ShaderVariant,
+}
+
+/// A shader that was compiled, and the layout of its bind groups.
+struct CompiledVariant {
+    module: wgpu::ShaderModule,
+    layout: wgpu::PipelineLayout,
 }
 
 /// Pipelines, created on first use: few of the possible ones are ever used.
 pub(super) struct ModelPipelines {
-    module: wgpu::ShaderModule,
-    layout: wgpu::PipelineLayout,
     draw_layout: wgpu::BindGroupLayout,
+    posed_layout: wgpu::BindGroupLayout,
+    /// The variants that were needed so far.
+    variants: [Option<CompiledVariant>; ShaderVariant::COUNT],
     made: HashMap<PipelineKind, wgpu::RenderPipeline>,
 }
 
 impl ModelPipelines {
     /// Starts without pipelines.
-    pub(super) fn new(gpu: &Gpu, material_layout: &wgpu::BindGroupLayout) -> Self {
-        let draw_layout = draw_layout(gpu);
-        let layout = gpu.pipeline_layout("model", &[&draw_layout, material_layout]);
-        let module = shaders::MODEL.module(&gpu.device);
-        Self { module, layout, draw_layout, made: HashMap::new() }
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let (draw_layout, posed_layout) = (draw_layout(gpu), posed_layout(gpu));
+        Self { draw_layout, posed_layout, variants: [const { None }; _], made: HashMap::new() }
     }
 
     /// Returns the pipeline of `kind`, if it was created.
@@ -52,15 +92,46 @@ impl ModelPipelines {
         self.made.get(&kind)
     }
 
-    /// Creates the pipeline of `kind` unless it exists.
-    pub(super) fn make(&mut self, gpu: &Gpu, kind: PipelineKind) {
-        let Self { module, layout, made, .. } = self;
-        made.entry(kind).or_insert_with(|| pipeline(gpu, module, layout, kind));
+    /// Creates the pipeline of `kind` unless it exists. `shadows` is the layout of bind group 3; without it there is none with shadows.
+    pub(super) fn make(
+        &mut self,
+        gpu: &Gpu,
+        kind: PipelineKind,
+        material: &wgpu::BindGroupLayout,
+        shadows: Option<&wgpu::BindGroupLayout>,
+    ) {
+        if self.made.contains_key(&kind) {
+            return;
+        }
+        let variant = &mut self.variants[kind.variant as usize];
+        if variant.is_none() {
+            let draw = match kind.variant {
+                ShaderVariant::Plain | ShaderVariant::Shadowed => &self.draw_layout,
+                ShaderVariant::ShadowedPosed => &self.posed_layout,
+            };
+            let layout = match (kind.variant, shadows) {
+                (ShaderVariant::Plain, _) => gpu.pipeline_layout("model", &[draw, material]),
+                (ShaderVariant::Shadowed | ShaderVariant::ShadowedPosed, Some(shadows)) => {
+                    gpu.pipeline_layout("shadowed model", &[draw, material, shadows])
+                }
+                (ShaderVariant::Shadowed | ShaderVariant::ShadowedPosed, None) => return,
+            };
+            let module = kind.variant.shader().module(&gpu.device);
+            *variant = Some(CompiledVariant { module, layout });
+        }
+        if let Some(variant) = variant {
+            self.made.insert(kind, pipeline(gpu, variant, kind));
+        }
     }
 
     /// Layout of bind group 1.
     pub(super) fn draw_layout(&self) -> &wgpu::BindGroupLayout {
         &self.draw_layout
+    }
+
+    /// Layout of bind group 1 of draws of vertices that were posed before.
+    pub(super) fn posed_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.posed_layout
     }
 
     /// Creates bind group 1 of a draw.
@@ -83,29 +154,38 @@ impl ModelPipelines {
     }
 }
 
-fn draw_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entry = |binding, size: usize| wgpu::BindGroupLayoutEntry {
+/// Describes a storage buffer of at least `size` bytes that shaders read.
+pub(super) fn storage(binding: u32, visibility: wgpu::ShaderStages, size: u64) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::VERTEX,
+        visibility,
         ty: wgpu::BindingType::Buffer {
             ty: wgpu::BufferBindingType::Storage { read_only: true },
             has_dynamic_offset: false,
-            min_binding_size: wgpu::BufferSize::new(size as u64),
+            min_binding_size: wgpu::BufferSize::new(size),
         },
         count: None,
-    };
+    }
+}
+
+fn draw_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let compute = if gpu.skins_once { wgpu::ShaderStages::COMPUTE } else { wgpu::ShaderStages::empty() };
+    let entry = |binding, size: usize| storage(binding, wgpu::ShaderStages::VERTEX | compute, size as u64);
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("draw"),
         entries: &[entry(0, size_of::<Affine>()), entry(1, size_of::<f32>()), entry(2, size_of::<f32>())],
     })
 }
 
-fn pipeline(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    layout: &wgpu::PipelineLayout,
-    kind: PipelineKind,
-) -> wgpu::RenderPipeline {
+fn posed_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("posed draw"),
+        entries: &[storage(0, wgpu::ShaderStages::VERTEX, POSED_BYTES)],
+    })
+}
+
+fn pipeline(gpu: &Gpu, variant: &CompiledVariant, kind: PipelineKind) -> wgpu::RenderPipeline {
+    let CompiledVariant { module, layout } = variant;
     let flag = |is_set| f64::from(u8::from(is_set));
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("model"),

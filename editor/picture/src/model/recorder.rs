@@ -24,7 +24,7 @@ impl Add for DrawCounts {
 pub(super) struct DrawRecorder<'a, 'p> {
     pass: &'a mut wgpu::RenderPass<'p>,
     pipeline: Option<&'a wgpu::RenderPipeline>,
-    groups: [Option<&'a wgpu::BindGroup>; 3],
+    groups: [Option<&'a wgpu::BindGroup>; 4],
     vertices: Option<&'a wgpu::Buffer>,
     counts: DrawCounts,
 }
@@ -32,10 +32,18 @@ pub(super) struct DrawRecorder<'a, 'p> {
 impl<'a, 'p> DrawRecorder<'a, 'p> {
     /// Starts with `frame` as bind group 0 and nothing else set.
     pub(super) fn new(pass: &'a mut wgpu::RenderPass<'p>, frame: &'a wgpu::BindGroup) -> Self {
-        let counts = DrawCounts::default();
-        let mut recorder = Self { pass, pipeline: None, groups: [None; 3], vertices: None, counts };
-        recorder.group(0, frame);
-        recorder
+        Self::at(pass, frame, &[])
+    }
+
+    /// Starts with a part of `group` as bind group 0, from these bytes on, and nothing else set.
+    pub(super) fn at(
+        pass: &'a mut wgpu::RenderPass<'p>,
+        group: &'a wgpu::BindGroup,
+        offsets: &[u32],
+    ) -> Self {
+        pass.set_bind_group(0, group, offsets);
+        let counts = DrawCounts { draws: 0, state_changes: 1 };
+        Self { pass, pipeline: None, groups: [Some(group), None, None, None], vertices: None, counts }
     }
 
     /// Number of commands recorded so far.
@@ -45,7 +53,12 @@ impl<'a, 'p> DrawRecorder<'a, 'p> {
 
     /// Sets the buffer with the instances of all draws.
     pub(super) fn instances(&mut self, instances: &wgpu::Buffer) {
-        self.pass.set_vertex_buffer(1, instances.slice(..));
+        self.instances_from(instances, 0);
+    }
+
+    /// Sets the buffer with the instances of all draws, which start at this byte of it.
+    pub(super) fn instances_from(&mut self, instances: &wgpu::Buffer, start: u64) {
+        self.pass.set_vertex_buffer(1, instances.slice(start..));
     }
 
     /// Sets a bind group.

@@ -17,7 +17,7 @@ pub(super) struct GhostsPass {
 }
 
 impl GhostsPass {
-    /// Draws ghosts of this model, which the pass of solid surfaces prepares.
+    /// Draws ghosts of this model, which the pass `skin` prepares.
     pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
         Self { model, skins: GhostSkins::default() }
     }

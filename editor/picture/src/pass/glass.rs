@@ -4,18 +4,20 @@ use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::model::GpuModel;
+use crate::shadow::ShadowMaps;
 use std::cell::RefCell;
 use std::rc::Rc;
 
 /// Draws the transparent surfaces from back to front.
 pub(super) struct GlassPass {
     model: Rc<RefCell<GpuModel>>,
+    shadows: Rc<RefCell<ShadowMaps>>,
 }
 
 impl GlassPass {
-    /// Draws this model, which the pass of solid surfaces prepares.
-    pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
-        Self { model }
+    /// Draws this model, which the pass `skin` prepares, with the shadows that the pass `shadow` draws.
+    pub(super) fn new(model: Rc<RefCell<GpuModel>>, shadows: Rc<RefCell<ShadowMaps>>) -> Self {
+        Self { model, shadows }
     }
 }
 
@@ -39,7 +41,8 @@ impl Pass for GlassPass {
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
         if around.scene.look.surface {
-            self.model.borrow().draw_blended(around.scene, around.gpu, pass);
+            let shadows = self.shadows.borrow();
+            self.model.borrow().draw_blended(around.scene, around.gpu, &shadows, pass);
         }
     }
 }

@@ -10,7 +10,10 @@ mod glass;
 mod grid;
 mod panels;
 mod reference;
+mod shadow;
+mod shadow_catcher;
 mod skeleton;
+mod skin;
 mod surface;
 
 pub use definition::{FrameCommands, Pass, PassLayer, Surroundings};
@@ -20,6 +23,7 @@ pub use reference::{ReferenceAppearance, ReferencePicture, ReferencePlace};
 use super::device::DeviceListener;
 use super::gpu::Gpu;
 use super::model::GpuModel;
+use super::shadow::ShadowMaps;
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -39,13 +43,17 @@ pub struct Passes {
 /// Creates all passes.
 pub fn all() -> Passes {
     let model = Rc::new(RefCell::new(GpuModel::default()));
+    let shadows = Rc::new(RefCell::new(ShadowMaps::default()));
     let panels = Rc::new(RefCell::new(PanelsPass::default()));
     let list: Vec<SharedPass> = vec![
+        shared(skin::SkinPass::new(Rc::clone(&model), Rc::clone(&shadows))),
+        shared(shadow::ShadowPass::new(Rc::clone(&model), Rc::clone(&shadows))),
         shared(background::BackgroundPass::default()),
         shared(reference::ReferencePass::default()),
-        shared(surface::SurfacePass::new(Rc::clone(&model))),
+        shared(surface::SurfacePass::new(Rc::clone(&model), Rc::clone(&shadows))),
         shared(grid::GridPass::default()),
-        shared(glass::GlassPass::new(Rc::clone(&model))),
+        shared(shadow_catcher::ShadowCatcherPass::new(Rc::clone(&shadows))),
+        shared(glass::GlassPass::new(Rc::clone(&model), shadows)),
         shared(ghosts::GhostsPass::new(Rc::clone(&model))),
         shared(skeleton::SkeletonPass::default()),
         shared(controls::ControlRender::default()),

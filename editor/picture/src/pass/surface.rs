@@ -1,21 +1,23 @@
-//! The solid surfaces of the model.
+//! The solid surfaces of the models.
 
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::model::GpuModel;
+use crate::shadow::ShadowMaps;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Draws the solid surfaces, and writes the models to the device for the other passes that draw it.
+/// Draws the solid surfaces.
 pub(super) struct SurfacePass {
     model: Rc<RefCell<GpuModel>>,
+    shadows: Rc<RefCell<ShadowMaps>>,
 }
 
 impl SurfacePass {
-    /// Draws this model.
-    pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
-        Self { model }
+    /// Draws this model, which the pass `skin` prepares, with the shadows that the pass `shadow` draws.
+    pub(super) fn new(model: Rc<RefCell<GpuModel>>, shadows: Rc<RefCell<ShadowMaps>>) -> Self {
+        Self { model, shadows }
     }
 }
 
@@ -35,13 +37,12 @@ impl Pass for SurfacePass {
         PassLayer::Scene
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
-        self.model.borrow_mut().prepare(around.gpu, around.scene);
-    }
+    fn prepare(&mut self, _: &Surroundings<'_>, _: &mut FrameCommands) {}
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
         if around.scene.look.surface {
-            self.model.borrow().draw_solid(around.scene, around.gpu, pass);
+            let shadows = self.shadows.borrow();
+            self.model.borrow().draw_solid(around.scene, around.gpu, &shadows, pass);
         }
     }
 }
