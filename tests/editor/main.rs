@@ -22,6 +22,7 @@ mod drag;
 mod echo;
 mod edit_command;
 mod edit_scope;
+mod effects_menu;
 mod explain;
 mod export;
 mod eye;

@@ -157,6 +157,7 @@ fn look(
         hovered: state.highlighted(),
         shading: settings.shading,
         surface: settings.surface,
+        effects: settings.effects,
         bone_color: linear(theme.bone),
         accent: linear(theme.accent),
         hidden,

@@ -3,6 +3,7 @@
 use super::commands::{self, Category, Id};
 use super::context::{PanelContext, title_with_dot};
 use super::edit_scope_menu;
+use super::effects_menu;
 use super::keys_menu;
 pub(super) use super::menu_entries::{entries, item};
 use super::recent_files::recent_names;
@@ -192,6 +193,7 @@ fn view(
     }
     item(ui, context, Id::ToggleGrid, look.grid, requests);
     item(ui, context, Id::ToggleContactShadow, look.contact_shadow, requests);
+    submenu(ui, "Effects", |ui| effects_menu::show(ui, context, requests));
     item(ui, context, Id::ToggleSurface, look.surface, requests);
     item(ui, context, Id::ToggleSkeleton, context.shows_skeleton(), requests);
     item(ui, context, Id::ToggleXRay, look.bones_in_front, requests);

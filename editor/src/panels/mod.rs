@@ -33,6 +33,7 @@ pub mod dropped_files;
 pub mod echo;
 pub mod edit_scope;
 mod edit_scope_menu;
+mod effects_menu;
 pub mod export;
 pub mod file_choice;
 mod foot_contacts;

@@ -7,7 +7,7 @@ use super::properties::look::PropertiesLook;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use dragonfly_picture::playback::Repeat;
-use dragonfly_picture::{BoneLook, Shading, between};
+use dragonfly_picture::{BoneLook, EffectLook, Shading, between};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -39,6 +39,8 @@ pub struct LookSettings {
     pub bones_in_front: bool,
     /// How surfaces are drawn.
     pub shading: Shading,
+    /// Which effects are on.
+    pub effects: EffectLook,
     /// Whether the surface is drawn.
     pub surface: bool,
     /// Whether drawn lines and paths of scenes are shown.
@@ -63,6 +65,7 @@ impl Default for LookSettings {
             bone_look: BoneLook::default(),
             bones_in_front: true,
             shading: Shading::default(),
+            effects: EffectLook::default(),
             surface: true,
             lines: true,
             helpers: true,

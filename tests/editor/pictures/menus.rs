@@ -53,6 +53,7 @@ const TABLE: &[MenuRow] = &[
     ("bones", VIEWPORT, Click(&["View", "Bones"]), &[Typical], FIXED),
     ("ghosts", VIEWPORT, Click(&["View", "Ghosts"]), &[Typical], FIXED),
     ("shading", VIEWPORT, Click(&["View", "Shading"]), &[Typical], FIXED),
+    ("effects", VIEWPORT, Click(&["View", "Effects"]), &[Typical], FIXED),
     ("theme", VIEWPORT, Click(&["View", "Theme"]), &[Typical], FIXED),
     ("interface-size", VIEWPORT, Click(&["View", "Interface size"]), &[Typical], FIXED),
     ("messages", VIEWPORT, Click(&["Messages: "]), &[Empty, Crowded], "a usual list is a short crowded one"),

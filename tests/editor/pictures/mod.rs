@@ -8,6 +8,7 @@
 //! reference  the files: written small, read, updated
 //! compare    the tolerance
 //! windows    the whole window with the scene, through the passes of the program
+//! effects    the scene alone, with an effect
 //! ```
 //!
 //! `DRAGONFLY_UPDATE_PICTURES=1 ./test --workspace --test editor pictures` replaces the pictures that differ. Everything that
@@ -16,6 +17,7 @@
 
 mod compare;
 mod drawing;
+mod effects;
 mod menus;
 mod overlays;
 mod panels;
@@ -34,6 +36,7 @@ fn every_file_in_the_folder_of_pictures_is_compared() {
         [panels::cases(), questions::cases(), overlays::cases(), menus::cases()].into_iter().flatten();
     let mut names: BTreeSet<String> = cases.flat_map(|case| case.names()).collect();
     names.extend(windows::names());
+    names.extend(effects::names());
     let strays: Vec<String> = reference::stored().into_iter().filter(|name| !names.contains(name)).collect();
     if update() {
         strays.iter().for_each(|name| std::fs::remove_file(reference::path(name)).unwrap());

@@ -9,6 +9,8 @@ use dragonfly_picture::Shading;
 commands! {
     ToggleGrid => When::Always, "Ground grid", [key(NONE, Key::G)], "Shows or hides the ground grid", |w| { w.settings.look.grid ^= true; None };
     ToggleContactShadow => When::Always, "Contact shadow", [], "Shows or hides the shadow on the ground below parts of the model that are near it", |w| { w.settings.look.contact_shadow ^= true; None };
+    ToggleShadows => When::Always, "Shadows", [], "Shows or hides the shadows of the lights of a scene; a light whose script has shadow=\"no\" casts none", |w| { w.settings.look.effects.shadows ^= true; None };
+    ToggleStudioShadows => When::Always, "Studio shadows", [], "Shows or hides the shadow of the key light that follows the viewer, where nothing has lights of its own", |w| { w.settings.look.effects.studio_shadows ^= true; None };
     ToggleSkeleton => When::Always, "Skeleton", [key(NONE, Key::B)], "Shows or hides the bones", |w| { w.settings.look.skeleton ^= true; None };
     ToggleXRay => When::Always, "Bones in front (X-ray)", [key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None };
     ToggleHelpers => When::Always, "Helpers", [], "Shows or hides cameras, lights and marks of a scene", |w| { w.settings.look.helpers ^= true; None };
