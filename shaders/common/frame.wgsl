@@ -39,7 +39,7 @@ struct Frame {
     bone_color: vec4f,
     accent: vec4f,
     // Of a sub-frame. x: 1 where the target takes light before the tone map, 0 where it takes colors of the display. y: threshold of
-    // masks. z and w: point of each light that is no point, within a circle of radius 1.
+    // masks.
     sampling: vec4f,
     // Spots of the contact shadow: center x and z, radius, strength.
     contact: array<vec4f, SPOTS>,

@@ -5,7 +5,8 @@
 // comparisons.
 // Sources: Dimitrov, "Cascaded Shadow Maps", 2007; Holbert, "Saying Goodbye to Shadow Acne", 2011 (normal offset); Castano, "Shadow Mapping
 // Summary", 2013 (tents of bilinear comparisons).
-// Limits: one sun and four spot lights, no point lights. An edge is as soft far from what casts the shadow as near to it.
+// Limits: one sun and four spot lights, no point lights. An edge is as soft far from what casts the shadow as near to it; in a frame of many
+// sub-frames those of a sun are softer far away, because each sub-frame has maps of another point of the sun.
 
 // Rust twin: picture::shadow::CASCADES
 const CASCADES: u32 = 3u;

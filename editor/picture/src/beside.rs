@@ -2,7 +2,7 @@
 
 use super::gpu::SceneEncoding;
 use super::guard::caught;
-use super::pass::{FrameCommands, Pass, PassLayer};
+use super::pass::{FrameCommands, Pass, PassLayer, SharedPass};
 use super::readback;
 use super::scene::Scene;
 use super::stage::{DrawMode, RenderStage};
@@ -94,15 +94,14 @@ impl RenderStage {
         let encoder = gpu.device.create_command_encoder(&Default::default());
         let mut commands = FrameCommands { encoder, before: Vec::new() };
         let around = self.surroundings(self.window_size);
-        let of_scene = || self.passes.list.iter().filter(|pass| pass.borrow().layer() == PassLayer::Scene);
-        of_scene().for_each(|pass| pass.borrow_mut().prepare(&around, &mut commands));
+        let is_recorded = |pass: &&SharedPass| {
+            let pass = pass.borrow();
+            pass.layer() == PassLayer::Scene && wanted(&*pass, &self.scene)
+        };
+        let recorded = || self.passes.list.iter().filter(is_recorded);
+        recorded().for_each(|pass| pass.borrow_mut().prepare(&around, &mut commands));
         let mut open = target.begin(&mut commands.encoder);
-        for pass in of_scene() {
-            let mut pass = pass.borrow_mut();
-            if wanted(&*pass, &self.scene) {
-                pass.draw(&around, &mut open);
-            }
-        }
+        recorded().for_each(|pass| pass.borrow_mut().draw(&around, &mut open));
         drop(open);
         commands
     }

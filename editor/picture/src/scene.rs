@@ -173,7 +173,7 @@ impl Scene {
     }
 
     /// Sets the sub-frame that is prepared next.
-    pub(crate) fn set_sub_frame(&mut self, sub_frame: Option<SubFrame>) {
+    pub fn set_sub_frame(&mut self, sub_frame: Option<SubFrame>) {
         self.sub_frame = sub_frame;
     }
 
@@ -401,9 +401,8 @@ impl Scene {
         let mut lights = [LightUniform::default(); LIGHTS];
         let light_count = self.cast.as_ref().map_or(0, |cast| cast.write_lights(&mut lights));
         self.shadows.mark(&mut lights);
-        let sampling = self.sub_frame.map_or(Vec4::ZERO, |sub_frame| {
-            Vec4::new(1.0, sub_frame.threshold, sub_frame.light.x, sub_frame.light.y)
-        });
+        let sampling =
+            self.sub_frame.map_or(Vec4::ZERO, |sub_frame| Vec4::new(1.0, sub_frame.threshold, 0.0, 0.0));
         // A sun fills the shadows less than the lamps of a studio do.
         let ambient = if light_count > 0 { 0.5 } else { 1.0 };
         FrameUniform {
@@ -456,6 +455,7 @@ impl Scene {
             drawn: self.drawn_bounds(),
             casters: self.posed_bounds(),
             lights: self.cast.as_ref().map_or(&[][..], PosedScene::lights),
+            light_point: self.sub_frame.map_or(Vec2::ZERO, |sub_frame| sub_frame.light),
             side: self.shadow_side,
         })
     }

@@ -35,8 +35,7 @@ pub struct FrameUniform {
     pub bone_color: Vec4,
     /// Color of selected bones, linear RGB.
     pub accent: Vec4,
-    /// Of a sub-frame: 1 where the target takes light before the tone map; threshold of masks; point of each light that is no point, within a
-    /// circle of radius 1.
+    /// Of a sub-frame: 1 where the target takes light before the tone map, and the threshold of masks.
     pub sampling: Vec4,
     /// Spots of the contact shadow: center x and z, radius, strength.
     pub contact: [Vec4; SPOTS],

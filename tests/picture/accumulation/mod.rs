@@ -5,6 +5,7 @@ mod frames;
 mod light;
 mod motion;
 mod points;
+mod shadows;
 
 use dragonfly_anim::data::{Material, ModelData, Primitive, Transform};
 use dragonfly_document::LoadedModel;

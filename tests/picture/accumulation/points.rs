@@ -11,7 +11,7 @@ fn sub_frames(samples: u32, samples_per_pixel: u32) -> Vec<SubFrame> {
     (0..samples).map(|index| frame.sub_frame(index, samples_per_pixel)).collect()
 }
 
-/// Returns whether each of as many equal parts of 0..1 as there are numbers has one of them.
+/// Returns whether one number is in each part of 0..1, which is cut into equal parts by their count.
 fn is_even(numbers: impl Iterator<Item = f64>) -> bool {
     let numbers: Vec<f64> = numbers.collect();
     let mut parts: Vec<usize> =

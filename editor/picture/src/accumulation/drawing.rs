@@ -91,7 +91,7 @@ impl RenderStage {
             sum.add(&mut commands.encoder);
             before = Some(self.submit_after(commands, before));
         }
-        // What is drawn under the scene is the same for every sub-frame, and in colors of the display.
+        // The backdrop is the same for every sub-frame, and in colors of the display.
         self.scene.playback = playback;
         self.scene.set_sub_frame(None);
         self.scene.prepare(now);

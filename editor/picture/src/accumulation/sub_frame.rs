@@ -1,4 +1,4 @@
-//! Where a sub-frame differs from the others: points that cover pixel, lens, light and time evenly, for any number of sub-frames.
+//! The points by which a sub-frame differs from the others: they cover pixel, lens, light and time evenly, for any number of sub-frames.
 //!
 //! A low-discrepancy set in place of random numbers, because 16 sub-frames have to look like many:
 //!
@@ -24,7 +24,7 @@ pub struct SubFrame {
     pub lens: Vec2,
     /// Part of the time that the shutter is open, from 0 to 1.
     pub shutter: f64,
-    /// Point of each light that is no point, within a circle of radius 1: shadows add up to soft ones.
+    /// Point of each light that is no point, which is the sun, within a circle of radius 1: shadows add up to soft ones.
     pub light: Vec2,
     /// Alpha up to which a mask is not drawn, between 0 and 1: the sub-frames add up to its alpha.
     pub threshold: f32,

@@ -4,7 +4,7 @@ use crate::camera::Camera;
 use crate::cast::SceneLight;
 use crate::effects::EffectLook;
 use dragonfly_anim::bounds::Sphere;
-use glam::Mat4;
+use glam::{Mat4, Vec2};
 
 /// Largest number of maps of a sun. WGSL twin: `CASCADES` in `shaders/common/shadowed.wgsl`.
 pub const CASCADES: usize = 3;
@@ -39,6 +39,8 @@ pub(crate) struct ShadowedFrame<'a> {
     pub(crate) casters: Sphere,
     /// The lights of the scene; without any that is not dark, those of the studio shine.
     pub(crate) lights: &'a [SceneLight],
+    /// The point of each light that is no point, within a circle of radius 1 around its middle: that of a sub-frame, otherwise the middle.
+    pub(crate) light_point: Vec2,
     /// Side of each map of a sun, texels.
     pub(crate) side: u32,
 }

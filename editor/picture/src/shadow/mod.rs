@@ -22,10 +22,13 @@ pub(crate) use maps::ShadowMaps;
 use super::cast::{LightKind, SceneLight, bright};
 use super::frustum::ViewFrustum;
 use super::uniform::{LIGHTS, LightUniform};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// Direction towards the key light of the studio, studio space. WGSL twin: `studio_light` in `shaders/common/studio.wgsl`.
 const KEY_LIGHT: Vec3 = Vec3::new(-0.4830, 0.7043, 0.5202);
+
+/// Tangent of half the angle that the sun takes in the sky, 0.53 degrees. The key light of the studio is as large.
+const SUN_RADIUS: f32 = 0.004_625;
 
 /// Returns the side of each map of a sun, texels: half as long where the processor draws.
 pub(super) fn sun_side(is_software: bool) -> u32 {
@@ -85,7 +88,7 @@ impl SceneShadows {
     }
 
     fn add_sun(&mut self, frame: &ShadowedFrame<'_>, towards: Vec3) {
-        (self.sun, self.cascades) = cascade::maps(frame, towards);
+        (self.sun, self.cascades) = cascade::maps(frame, towards_point(towards, frame.light_point));
     }
 
     /// Returns whether there are no shadows.
@@ -130,6 +133,15 @@ impl SceneShadows {
             light.direction.w = slot;
         }
     }
+}
+
+/// Returns the direction towards a point of the sun whose middle is in direction `middle`. The point is within a circle of radius 1.
+fn towards_point(middle: Vec3, point: Vec2) -> Vec3 {
+    if point == Vec2::ZERO {
+        return middle;
+    }
+    let (right, up) = middle.any_orthonormal_pair();
+    (middle + (right * point.x + up * point.y) * SUN_RADIUS).normalize()
 }
 
 /// Returns the direction towards the key light of the studio for a viewer with this yaw, scene space.
