@@ -17,12 +17,7 @@ pub struct StudioFrames {
 
 impl StudioFrames {
     /// Creates a source of frames at `rate`; the times of `settings` are ignored. For a take, `settings` has the camera.
-    pub fn new(
-        studio: Studio,
-        subject: FrameSubject,
-        settings: PictureSettings,
-        rate: StageRate,
-    ) -> Self {
+    pub fn new(studio: Studio, subject: FrameSubject, settings: PictureSettings, rate: StageRate) -> Self {
         let sampling = FrameSampling { rate, ..settings.sampling };
         Self { studio, subject, settings: PictureSettings { sampling, ..settings }, rate }
     }

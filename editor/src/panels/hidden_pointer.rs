@@ -26,9 +26,8 @@ impl HiddenPointer {
     pub(super) fn begin(ui: &Context, context: &PanelContext<'_>) -> Option<Self> {
         let question = context.prompts.question_number().map(|_| ModalKind::Question);
         let below = question.or(context.overlay.map(|_| ModalKind::Overlay))?;
-        let is_used = |pointer: &PointerState| {
-            pointer.any_down() || pointer.any_pressed() || pointer.any_released()
-        };
+        let is_used =
+            |pointer: &PointerState| pointer.any_down() || pointer.any_pressed() || pointer.any_released();
         if ui.input(|input| is_used(&input.pointer)) {
             return None;
         }

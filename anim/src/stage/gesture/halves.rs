@@ -9,7 +9,7 @@ use crate::stage::time_text::decimal_text;
 /// A change of an attribute of a half: the name, and the new value; `None` removes it.
 pub(super) type HalfChange = (&'static str, Option<String>);
 
-/// What the halves have other than the whole, apart from begins and ends.
+/// The attributes in which the halves differ from the whole, apart from begins and ends.
 pub(super) struct ClipHalves {
     pub(super) first: Vec<HalfChange>,
     pub(super) second: Vec<HalfChange>,

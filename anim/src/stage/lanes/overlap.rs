@@ -56,7 +56,7 @@ impl ClipOverlap {
         let (length, before) = (own.stop - own.begin, earlier.stop);
         let is_inside = before > own.stop && !is_same(before, own.stop);
         let fade = INSIDE.min(StageTime::from_ticks(length.ticks() / 2));
-        // Where both begin at once, nothing of the other one is seen before.
+        // If both begin at once, nothing of the other one is seen before.
         let fade_in = if is_same(earlier.begin, own.begin) { StageTime::ZERO } else { fade };
         let mix = match own.stop <= before {
             // Its length may not be known yet.
@@ -64,9 +64,7 @@ impl ClipOverlap {
             false => ClipMix { fade_in: before - own.begin, fade_out: StageTime::ZERO },
             // A way without a take is about the place, which is not given back.
             true if element.value("take").is_none() => ClipMix::default(),
-            true if is_inside && element.value("fill") != Some("hold") => {
-                ClipMix { fade_in, fade_out: fade }
-            }
+            true if is_inside && element.value("fill") != Some("hold") => ClipMix { fade_in, fade_out: fade },
             true => ClipMix { fade_in, fade_out: StageTime::ZERO },
         };
         Self { until: before.min(own.stop), is_inside, mix }
