@@ -60,7 +60,8 @@ fn light(pixel: &Rgba<u8>) -> f32 {
 /// Returns the share of the light that shadows keep from each pixel of the row through a point of the ground with this z.
 fn shadow_along(studio: &mut Studio, lamps: &str, camera: Camera, z: f32) -> Vec<f32> {
     let view = lit_box(lamps);
-    let [with, without] = [true, false].map(|shadows| picture(studio, &view, camera, shadows));
+    // The scene with shadows last: the caller looks at its maps.
+    let [without, with] = [false, true].map(|shadows| picture(studio, &view, camera, shadows));
     let unit = camera.units_per_pixel(SIZE[1] as f32);
     let row = (SIZE[1] as f32 / 2.0 + (z - camera.target.z) / unit) as u32;
     (0..SIZE[0]).map(|x| 1.0 - light(with.get_pixel(x, row)) / light(without.get_pixel(x, row))).collect()
