@@ -2,6 +2,8 @@
 
 mod animations;
 mod broken;
+#[cfg(feature = "h264")]
+mod environment;
 mod frames;
 #[cfg(feature = "h264")]
 mod join;
