@@ -11,10 +11,14 @@ mod judge;
 mod memory;
 #[cfg(feature = "h264")]
 mod mp4;
+#[cfg(feature = "h264")]
+mod second_decoder;
 mod sequences;
 #[cfg(feature = "h264")]
 mod sound;
 mod stream;
+#[cfg(feature = "h264")]
+mod tracks;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;
