@@ -1,7 +1,7 @@
 //! Animated images: GIF, APNG and WebP.
 
 use crate::frames::{disc, noise, opaque, psnr, rate, write, write_disc};
-use crate::judge::{decode, ffmpeg, probe};
+use crate::judge::{self, decode, ffmpeg, probe};
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_movie::{MovieSettings, MovieTarget};
@@ -191,18 +191,41 @@ fn a_webp_is_the_frames_with_their_alpha() {
         let wanted: Vec<Vec<u8>> = (0..24).map(|number| disc(SIZE, number, clear)).collect();
         assert_eq!(delays.iter().sum::<u32>(), 1000);
         for (number, (found, wanted)) in frames.iter().zip(&wanted).enumerate() {
-            // A clear pixel has no color.
-            let seen = |pixels: &[u8]| {
-                pixels
-                    .as_chunks::<4>()
-                    .0
-                    .iter()
-                    .map(|p| if p[3] == 0 { [0; 4] } else { *p })
-                    .collect::<Vec<_>>()
-            };
-            assert!(seen(found) == seen(wanted), "frame {number}, clear {clear}");
+            assert!(visible(found) == visible(wanted), "frame {number}, clear {clear}");
         }
         assert_eq!(frames.len(), wanted.len());
+    }
+}
+
+/// Returns pixels without the color of those that are clear.
+fn visible(pixels: &[u8]) -> Vec<[u8; 4]> {
+    let visible = |pixel: &[u8; 4]| if pixel[3] == 0 { [0; 4] } else { *pixel };
+    pixels.as_chunks::<4>().0.iter().map(visible).collect()
+}
+
+#[test]
+fn the_programs_of_the_authors_of_webp_find_the_same_frames() {
+    if !judge::webp_programs() {
+        return;
+    }
+    let folder = Folder::new("webp-programs");
+    let path = folder.join("it.webp");
+    let width = SIZE[0] as usize;
+    for clear in [false, true] {
+        write_disc("webp", &settings("24"), &path, 12, clear);
+        let frames = judge::webp_frames(&path, folder.path());
+        assert_eq!(frames.len(), 12);
+        assert_eq!(frames.iter().map(|frame| frame.milliseconds).sum::<u32>(), 500);
+        let mut canvas = vec![0; width * SIZE[1] as usize * 4];
+        for (number, frame) in frames.iter().enumerate() {
+            assert_eq!((&*frame.disposal, &*frame.blending), ("none", "no"));
+            for (row, pixels) in frame.pixels.chunks(frame.size[0] * 4).enumerate() {
+                let at = ((frame.place[1] + row) * width + frame.place[0]) * 4;
+                canvas[at..at + pixels.len()].copy_from_slice(pixels);
+            }
+            let wanted = disc(SIZE, number as u64, clear);
+            assert!(visible(&canvas) == visible(&wanted), "frame {number}, clear {clear}");
+        }
     }
 }
 

@@ -16,6 +16,65 @@ pub(crate) fn ffmpeg() -> bool {
     runs
 }
 
+/// Returns whether the programs of the authors of WebP can run; skips otherwise.
+pub(crate) fn webp_programs() -> bool {
+    let runs =
+        |program| Command::new(program).arg("-version").output().is_ok_and(|output| output.status.success());
+    let runs = ["webpinfo", "webpmux", "dwebp"].into_iter().all(runs);
+    if !runs {
+        skip(TestNeed::Evaluators, "there are no webpinfo, webpmux and dwebp");
+    }
+    runs
+}
+
+/// Runs a program, which must succeed. Returns what it prints.
+fn output(command: &mut Command) -> String {
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{command:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A frame of an animated WebP as the programs of its authors find it.
+pub(crate) struct WebpFrame {
+    pub(crate) place: [usize; 2],
+    pub(crate) size: [usize; 2],
+    pub(crate) milliseconds: u32,
+    /// Both are `none` and `no` for a frame that replaces its part of the picture before.
+    pub(crate) disposal: String,
+    pub(crate) blending: String,
+    /// Red, green, blue and alpha.
+    pub(crate) pixels: Vec<u8>,
+}
+
+/// Returns the frames of an animated WebP, which has no errors; `folder` is for files.
+pub(crate) fn webp_frames(path: &Path, folder: &Path) -> Vec<WebpFrame> {
+    let info = output(Command::new("webpinfo").arg("-diag").arg(path));
+    assert!(!info.to_lowercase().contains("error") && !info.contains("Warning"), "{info}");
+    let list = output(Command::new("webpmux").arg("-info").arg(path));
+    let [one, pixels] = ["one.webp", "pixels.pam"].map(|name| folder.join(name));
+    let mut frames = Vec::new();
+    for line in list.lines().skip_while(|line| !line.starts_with("No.:")).skip(1) {
+        let (number, rest) = line.split_once(':').unwrap_or_else(|| panic!("{list}"));
+        // Width, height, alpha, both offsets, duration, disposal and blending.
+        let columns: Vec<&str> = rest.split_whitespace().collect();
+        let value = |at: usize| columns[at].parse::<usize>().unwrap_or_else(|_| panic!("{list}"));
+        let get = ["-get", "frame", number.trim()];
+        output(Command::new("webpmux").args(get).arg(path).arg("-o").arg(&one));
+        output(Command::new("dwebp").arg("-quiet").arg(&one).args(["-pam", "-o"]).arg(&pixels));
+        let pam = std::fs::read(&pixels).unwrap();
+        let header = pam.windows(7).position(|end| end == b"ENDHDR\n").unwrap() + 7;
+        frames.push(WebpFrame {
+            place: [value(3), value(4)],
+            size: [value(0), value(1)],
+            milliseconds: value(5) as u32,
+            disposal: columns[6].to_owned(),
+            blending: columns[7].to_owned(),
+            pixels: pam[header..].to_vec(),
+        });
+    }
+    frames
+}
+
 /// Runs a program that must have nothing to complain about. Returns its output.
 fn run(program: &str, arguments: &[&str], path: &Path) -> Vec<u8> {
     let mut command = Command::new(program);
