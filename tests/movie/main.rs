@@ -2,12 +2,15 @@
 
 mod animations;
 mod broken;
+mod cancel;
 #[cfg(feature = "h264")]
 mod environment;
 mod frames;
+mod full_disk;
 #[cfg(feature = "h264")]
 mod join;
 mod judge;
+mod links;
 mod memory;
 #[cfg(feature = "h264")]
 mod mp4;

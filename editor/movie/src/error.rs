@@ -10,6 +10,15 @@ pub enum MovieError {
     /// A file could not be written; the message names it.
     #[error(transparent)]
     File(#[from] FileSaveError),
+    /// The file of a movie is complete, but could not replace the old one; the message names both.
+    #[error("{error}; the movie is complete in {kept}", kept = .kept.display())]
+    Kept {
+        /// The file of the movie.
+        kept: PathBuf,
+        /// Why it has not the name that it should have.
+        #[source]
+        error: FileSaveError,
+    },
     /// The receiver of a stream took no more bytes.
     #[error("the stream of the movie ended: {0}")]
     Stream(#[source] io::Error),
@@ -43,6 +52,18 @@ pub enum MovieError {
     /// A movie without frames was ended.
     #[error("the movie has no frames")]
     Empty,
+    /// The movie was cancelled while it was completed. The old file is unchanged.
+    #[error("the movie was cancelled")]
+    Cancelled,
+}
+
+impl MovieError {
+    /// Returns whether the disk has no room for a file, or the file system none for larger files.
+    pub(crate) fn is_out_of_room(&self) -> bool {
+        let Self::File(FileSaveError::Io { error, .. }) = self else { return false };
+        let kinds = [io::ErrorKind::StorageFull, io::ErrorKind::QuotaExceeded, io::ErrorKind::FileTooLarge];
+        kinds.contains(&error.kind())
+    }
 }
 
 /// Returns an error for a frame that an encoder refused.

@@ -10,7 +10,7 @@ use crate::writer::{MovieFormat, MovieWriter};
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// A movie that is being written. One that is dropped instead of ended leaves no file, except for frames in files of their own.
+/// A movie that is being written. One that is dropped instead of ended is cancelled.
 pub struct Movie {
     writer: Box<dyn MovieWriter>,
     size: [u32; 2],
@@ -67,7 +67,7 @@ impl Movie {
         Ok(Self { writer, size: settings.size, is_sequence, next: settings.first, failed: false })
     }
 
-    /// Returns the number of the next frame, counted from the start of the whole movie.
+    /// Returns the number of the next frame, counted from the start of the whole movie: how far the movie is.
     pub fn next_frame(&self) -> u64 {
         self.next
     }
@@ -108,14 +108,27 @@ impl Movie {
         written
     }
 
-    /// Completes the movie.
+    /// Completes the movie. Where the disk is full, the movie has fewer frames: see [`MovieReport::left_out`].
     ///
     /// # Errors
-    /// When there are no frames, or the rest cannot be written; then there is no file, except for frames in files of their own.
+    /// When there are no frames, or the rest cannot be written; then there is no file, except for frames in files of their own, and a complete
+    /// movie that could not replace the old file ([`MovieError::Kept`]).
     pub fn end(self) -> Result<MovieReport, MovieError> {
-        let Self { writer, next, .. } = self;
-        guarded(next, || writer.end())
+        self.end_with(&mut |_, _| true)
     }
+
+    /// Completes the movie as [`Self::end`]. Where that takes long, `progress` receives the number of frames that are complete and that of all
+    /// frames, and returns whether to continue.
+    ///
+    /// # Errors
+    /// As [`Self::end`], and [`MovieError::Cancelled`] where `progress` returned false; then there is no file.
+    pub fn end_with(self, progress: &mut dyn FnMut(u64, u64) -> bool) -> Result<MovieReport, MovieError> {
+        let Self { writer, next, .. } = self;
+        guarded(next, || writer.end(progress))
+    }
+
+    /// Cancels the movie: its temporary file is removed, and the old file stays as it was. Frames in files of their own stay, too: each is complete.
+    pub fn cancel(self) {}
 }
 
 /// Runs an encoder of another crate. One that panics is like one that fails.

@@ -1,7 +1,8 @@
 //! Destinations of a movie: a file, a file for each frame, or a stream.
 
 use crate::error::MovieError;
-use dragonfly_store::{FileSaveError, GrowingFile, RealFiles, Vfs};
+use crate::files::MovieFile;
+use dragonfly_store::{FileSaveError, RealFiles, Vfs};
 use std::fmt;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -50,14 +51,14 @@ impl MovieTarget {
 
 /// A file or stream that receives bytes in order.
 pub(crate) enum MovieOutput {
-    File(GrowingFile),
+    File(MovieFile),
     Stream { to: Box<dyn Write + Send>, size: u64 },
 }
 
 impl MovieOutput {
     pub(crate) fn open(target: MovieTarget) -> Result<Self, MovieError> {
         Ok(match target {
-            MovieTarget::Path { files, path } => Self::File(GrowingFile::create(files, &path)?),
+            MovieTarget::Path { files, path } => Self::File(MovieFile::create(files, &path)?),
             MovieTarget::Stream(to) => Self::Stream { to, size: 0 },
         })
     }
@@ -77,6 +78,14 @@ impl MovieOutput {
     pub(crate) fn truncate(&mut self, size: u64) -> Result<(), FileSaveError> {
         match self {
             Self::File(file) => file.truncate(size),
+            Self::Stream { .. } => Ok(()),
+        }
+    }
+
+    /// Writes the bytes of a buffer.
+    pub(crate) fn settle(&mut self) -> Result<(), FileSaveError> {
+        match self {
+            Self::File(file) => file.settle(),
             Self::Stream { .. } => Ok(()),
         }
     }

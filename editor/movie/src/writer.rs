@@ -11,6 +11,9 @@ use crate::target::MovieTarget;
 type BeginMovie =
     fn(&MovieSettings, MovieTarget, Option<MovieSound>) -> Result<Box<dyn MovieWriter>, MovieError>;
 
+/// Receives the number of frames that are complete and that of all frames; returns whether to continue.
+pub(crate) type EndProgress<'a> = &'a mut dyn FnMut(u64, u64) -> bool;
+
 /// A format of movies.
 #[derive(Clone, Copy, Debug)]
 pub struct MovieFormat {
@@ -38,6 +41,7 @@ pub(crate) trait MovieWriter: Send {
     /// Writes the next frame, which has the size of the movie. After an error, [`Self::end`] still completes the movie with the frames before.
     fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError>;
 
-    /// Writes the rest.
-    fn end(self: Box<Self>) -> Result<MovieReport, MovieError>;
+    /// Writes the rest. Calls `progress` with the number of frames that are complete and that of all, where this takes long; an error where it
+    /// returns false.
+    fn end(self: Box<Self>, progress: EndProgress<'_>) -> Result<MovieReport, MovieError>;
 }

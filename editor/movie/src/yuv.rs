@@ -29,6 +29,8 @@ const fn fixed(value: f64) -> i32 {
 pub(crate) struct YuvPicture {
     size: [usize; 2],
     planes: [Vec<u8>; 3],
+    /// Sums of two rows, with a column more than the picture.
+    sums: Vec<[i32; 3]>,
 }
 
 impl YuvPicture {
@@ -36,7 +38,8 @@ impl YuvPicture {
     pub(crate) fn new(size: [u32; 2]) -> Self {
         let size = size.map(|side| side as usize);
         let color = size[0].div_ceil(2) * size[1].div_ceil(2);
-        Self { size, planes: [vec![16; size[0] * size[1]], vec![128; color], vec![128; color]] }
+        let planes = [vec![16; size[0] * size[1]], vec![128; color], vec![128; color]];
+        Self { size, planes, sums: vec![[0; 3]; size[0] + 1] }
     }
 
     /// Returns Y′, Cb and Cr.
@@ -61,7 +64,7 @@ impl YuvPicture {
         }
         let half = width.div_ceil(2);
         let [blue, red] = color;
-        let mut sums = vec![[0_i32; 3]; width + 1];
+        let sums = &mut self.sums;
         for y in 0..height.div_ceil(2) {
             let rows = [row(2 * y), row((2 * y + 1).min(height - 1))];
             for ((sum, upper), lower) in sums.iter_mut().zip(rows[0]).zip(rows[1]) {

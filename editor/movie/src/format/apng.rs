@@ -3,15 +3,17 @@
 use super::png::encode;
 use crate::error::MovieError;
 use crate::error::refused;
+use crate::files::MovieFile;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
+use crate::frame_ends::{FrameEnds, close_with_room, left_out};
 use crate::frame_pair::FramePair;
 use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
-use crate::writer::{MovieFormat, MovieWriter};
+use crate::writer::{EndProgress, MovieFormat, MovieWriter};
 use crc::{CRC_32_ISO_HDLC, Crc};
-use dragonfly_store::{FileSaveError, GrowingFile};
+use dragonfly_store::FileSaveError;
 
 pub(super) const APNG: MovieFormat = MovieFormat {
     name: "apng",
@@ -32,13 +34,12 @@ const UNITS: u32 = 10_000;
 
 struct ApngWriter {
     settings: MovieSettings,
-    file: GrowingFile,
+    file: MovieFile,
     pair: FramePair,
     png: Vec<u8>,
-    frames: u64,
+    ends: FrameEnds,
     /// Number of chunks of the animation.
     sequence: u32,
-    whole: u64,
     /// Offset of the chunk with the number of frames.
     control: u64,
 }
@@ -46,9 +47,9 @@ struct ApngWriter {
 impl ApngWriter {
     fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<Self, MovieError> {
         let (files, path) = target.into_path(APNG.title)?;
-        let file = GrowingFile::create(files, &path)?;
+        let file = MovieFile::create(files, &path)?;
         let (settings, pair, png) = (settings.clone(), FramePair::new(), Vec::new());
-        Ok(Self { settings, file, pair, png, frames: 0, sequence: 0, whole: 0, control: 0 })
+        Ok(Self { settings, file, pair, png, ends: FrameEnds::default(), sequence: 0, control: 0 })
     }
 
     /// Returns the duration of a frame in seconds as a fraction.
@@ -58,7 +59,8 @@ impl ApngWriter {
             (Ok(seconds), Ok(frames)) => [seconds, frames],
             (Err(_), _) | (_, Err(_)) => {
                 let start = |frame| start_of(frame, self.settings.rate, UNITS);
-                [(start(self.frames + 1) - start(self.frames)) as u16, UNITS as u16]
+                let frame = self.ends.frames();
+                [(start(frame + 1) - start(frame)) as u16, UNITS as u16]
             }
         }
     }
@@ -66,16 +68,17 @@ impl ApngWriter {
     fn animation_control(&self) -> [u8; 8] {
         let plays = u32::from(!self.settings.repeats);
         let mut control = [0; 8];
-        control[..4].copy_from_slice(&(self.frames as u32).to_be_bytes());
+        control[..4].copy_from_slice(&(self.ends.frames() as u32).to_be_bytes());
         control[4..].copy_from_slice(&plays.to_be_bytes());
         control
     }
 
     fn write(&mut self, number: u64) -> Result<(), MovieError> {
-        let (rect, cut) = self.pair.changed(self.settings.size, self.frames == 0, false);
+        let is_first = self.ends.frames() == 0;
+        let (rect, cut) = self.pair.changed(self.settings.size, is_first, false);
         encode(cut.as_flattened(), [rect.width, rect.height], None, &mut self.png)
             .map_err(refused(number))?;
-        if self.frames == 0 {
+        if is_first {
             self.file.append(SIGNATURE)?;
             for (kind, data) in png_chunks(&self.png).filter(|(kind, _)| matches!(*kind, b"IHDR" | b"sRGB")) {
                 append(&mut self.file, kind, &[data])?;
@@ -96,7 +99,7 @@ impl ApngWriter {
         append(&mut self.file, b"fcTL", &[&control])?;
         self.sequence += 1;
         for (_, data) in png_chunks(&self.png).filter(|(kind, _)| *kind == b"IDAT") {
-            if self.frames == 0 {
+            if is_first {
                 append(&mut self.file, b"IDAT", &[data])?;
             } else {
                 append(&mut self.file, b"fdAT", &[&self.sequence.to_be_bytes(), data])?;
@@ -105,31 +108,39 @@ impl ApngWriter {
         }
         Ok(())
     }
+
+    /// Makes the bytes a complete file, except for its name.
+    fn close(&mut self) -> Result<(), MovieError> {
+        self.file.truncate(self.ends.whole())?;
+        append(&mut self.file, b"IEND", &[])?;
+        let control = chunk(b"acTL", &[&self.animation_control()]);
+        Ok(self.file.overwrite(&control, self.control)?)
+    }
 }
 
 impl MovieWriter for ApngWriter {
     fn frame(&mut self, frame: MovieFrame<'_>, number: u64) -> Result<(), MovieError> {
-        if self.frames == u64::from(i32::MAX as u32) {
+        if self.ends.frames() == u64::from(i32::MAX as u32) {
             let reason = "a PNG has at most 2,147,483,647 frames".to_owned();
             return Err(MovieError::Frame { number, reason });
         }
         self.pair.take(frame);
         self.write(number)?;
         self.pair.keep();
-        (self.frames, self.whole) = (self.frames + 1, self.file.size());
+        self.ends.add(self.file.size());
         Ok(())
     }
 
-    fn end(mut self: Box<Self>) -> Result<MovieReport, MovieError> {
-        if self.frames == 0 {
+    fn end(mut self: Box<Self>, _: EndProgress<'_>) -> Result<MovieReport, MovieError> {
+        let all = self.ends.frames();
+        if all == 0 {
             return Err(MovieError::Empty);
         }
-        self.file.truncate(self.whole)?;
-        append(&mut self.file, b"IEND", &[])?;
-        let control = chunk(b"acTL", &[&self.animation_control()]);
-        self.file.overwrite(&control, self.control)?;
+        close_with_room(&mut *self, Self::close, |writer| writer.ends.leave_out())?;
+        let frames = self.ends.frames();
         let (path, bytes) = self.file.commit()?;
-        Ok(MovieReport { frames: self.frames, path: Some(path), bytes, notices: Vec::new() })
+        let notices = left_out(frames, all).into_iter().collect();
+        Ok(MovieReport { frames, path: Some(path), bytes, left_out: all - frames, notices })
     }
 }
 
@@ -145,7 +156,7 @@ fn chunk(kind: &[u8; 4], data: &[&[u8]]) -> Vec<u8> {
     chunk
 }
 
-fn append(file: &mut GrowingFile, kind: &[u8; 4], data: &[&[u8]]) -> Result<(), FileSaveError> {
+fn append(file: &mut MovieFile, kind: &[u8; 4], data: &[&[u8]]) -> Result<(), FileSaveError> {
     file.append(&chunk(kind, data))
 }
 

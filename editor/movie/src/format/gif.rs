@@ -2,21 +2,20 @@
 //!
 //! The palette is known at the end only, so the frames wait in a temporary file until then.
 
-use crate::changed::ChangedRect;
 use crate::error::MovieError;
+use crate::files::MovieFile;
 use crate::frame::MovieFrame;
-use crate::gif::dither::DitherTable;
+use crate::frame_ends::{FrameEnds, close_with_room, left_out};
 use crate::gif::histogram::ColorHistogram;
 use crate::gif::palette::palette;
+use crate::gif::pictures::GifPictures;
 use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::spool::FrameSpool;
 use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
-use crate::writer::{MovieFormat, MovieWriter};
-use dragonfly_store::GrowingFile;
-use std::borrow::Cow;
+use crate::writer::{EndProgress, MovieFormat, MovieWriter};
 
 /// Units of time in a second.
 const UNITS: u32 = 100;
@@ -38,7 +37,7 @@ pub(super) const GIF: MovieFormat = MovieFormat {
 
 struct GifWriter {
     settings: MovieSettings,
-    output: GrowingFile,
+    output: GifOutput,
     spool: FrameSpool,
     table: SrgbTable,
     histogram: ColorHistogram,
@@ -48,9 +47,10 @@ struct GifWriter {
 impl GifWriter {
     fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<Self, MovieError> {
         let (files, path) = target.into_path(GIF.title)?;
+        let file = MovieFile::create(files.clone(), &path)?;
         Ok(Self {
             settings: settings.clone(),
-            output: GrowingFile::create(files.clone(), &path)?,
+            output: GifOutput { file, ends: FrameEnds::default(), trailer: Vec::new() },
             spool: FrameSpool::create(files, &path)?,
             table: SrgbTable::new(),
             histogram: ColorHistogram::new(),
@@ -75,6 +75,31 @@ impl GifWriter {
         };
         shown.iter().zip(ends).map(duration).collect()
     }
+
+    /// Writes the frames of a schedule; on a full disk, those for which later frames in the temporary file make room.
+    fn write(&mut self, schedule: &[(u64, u16)], progress: EndProgress<'_>) -> Result<(), MovieError> {
+        let colors = palette(&self.histogram, &self.table);
+        let mut pictures = GifPictures::new(self.settings.size, &colors, self.settings.repeats)?;
+        'frames: for &(frame, duration) in schedule {
+            if !progress(frame, self.spool.frames()) {
+                return Err(MovieError::Cancelled);
+            }
+            let Some(rgb) = self.spool.frame(frame)? else { break };
+            let bytes = pictures.encode(rgb, duration)?;
+            while let Err(error) = self.output.append(&bytes) {
+                if !error.is_out_of_room() {
+                    return Err(error);
+                }
+                match self.spool.shorten()? {
+                    true => {}
+                    false if self.output.ends.frames() == 0 => return Err(error),
+                    false => break 'frames,
+                }
+            }
+        }
+        self.output.trailer = pictures.end()?;
+        Ok(())
+    }
 }
 
 impl MovieWriter for GifWriter {
@@ -85,89 +110,51 @@ impl MovieWriter for GifWriter {
         Ok(())
     }
 
-    fn end(mut self: Box<Self>) -> Result<MovieReport, MovieError> {
+    fn end(mut self: Box<Self>, progress: EndProgress<'_>) -> Result<MovieReport, MovieError> {
+        let all = self.spool.frames();
+        if all == 0 {
+            return Err(MovieError::Empty);
+        }
+        self.spool.rewind()?;
         let schedule = self.schedule();
-        let Some((last, _)) = schedule.last().copied() else { return Err(MovieError::Empty) };
-        let size = self.settings.size;
-        let colors = palette(&self.histogram, &self.table);
-        let mut dither = DitherTable::new(&colors, size);
-        let transparent = colors.len() as u8;
-        // The color after the last one is for pixels that do not change.
-        let table = [colors.as_slice(), &[[0; 3]]].concat();
-        let mut gif = GifBytes::begin(size, table.as_flattened(), self.settings.repeats)?;
-        let (mut now, mut shown, mut cut) = (Vec::new(), Vec::new(), Vec::new());
-        let mut frames = schedule.iter().peekable();
-        for number in 0..=last {
-            let rgb = self.spool.next()?;
-            let Some((_, duration)) = frames.next_if(|(frame, _)| *frame == number) else { continue };
-            dither.indexes(rgb, &mut now);
-            let mut rect = ChangedRect::whole(size);
-            if shown.is_empty() {
-                cut.clone_from(&now);
-            } else {
-                rect = ChangedRect::between(&shown, &now, size, false);
-                rect.cut(&shown, size, &mut cut);
-                let before = cut.clone();
-                rect.cut(&now, size, &mut cut);
-                let unchanged = cut.iter_mut().zip(before).filter(|(now, before)| *now == before);
-                unchanged.for_each(|(now, _)| *now = transparent);
-            }
-            self.output.append(&gif.frame(rect, &cut, *duration, transparent)?)?;
-            std::mem::swap(&mut now, &mut shown);
-        }
-        self.output.append(&gif.end()?)?;
-        let left_out = self.spool.frames() - schedule.len() as u64;
-        let notice = format!(
-            "{left_out} of {} frames were left out: GIF shows at most 50 frames per second",
-            self.spool.frames()
-        );
-        let notices = if left_out > 0 { vec![notice] } else { Vec::new() };
-        let (path, bytes) = self.output.commit()?;
-        Ok(MovieReport { frames: schedule.len() as u64, path: Some(path), bytes, notices })
+        self.write(&schedule, progress)?;
+        let left = self.spool.frames();
+        let Self { mut output, spool, .. } = *self;
+        // Its room may be needed.
+        drop(spool);
+        close_with_room(&mut output, GifOutput::close, |output| output.ends.leave_out())?;
+        let shown = output.ends.frames();
+        // The frames until the first one of the schedule that is not in the file.
+        let kept = schedule.get(shown as usize).map_or(left, |(frame, _)| *frame);
+        let too_fast = kept.saturating_sub(shown);
+        let notice =
+            format!("{too_fast} of {all} frames were left out: GIF shows at most 50 frames per second");
+        let notices = (too_fast > 0).then_some(notice).into_iter().chain(left_out(kept, all)).collect();
+        let (path, bytes) = output.file.commit()?;
+        Ok(MovieReport { frames: shown, path: Some(path), bytes, left_out: all - kept, notices })
     }
 }
 
-/// The encoder, with the bytes of the last frame.
-struct GifBytes(gif::Encoder<Vec<u8>>);
-
-impl GifBytes {
-    fn begin(size: [u32; 2], palette: &[u8], repeats: bool) -> Result<Self, MovieError> {
-        let [width, height] = size.map(|side| side as u16);
-        let mut encoder = gif::Encoder::new(Vec::new(), width, height, palette).map_err(refused)?;
-        if repeats {
-            encoder.set_repeat(gif::Repeat::Infinite).map_err(refused)?;
-        }
-        Ok(Self(encoder))
-    }
-
-    /// Encodes a rectangle. Returns the bytes since the last call.
-    fn frame(
-        &mut self,
-        rect: ChangedRect,
-        indexes: &[u8],
-        delay: u16,
-        transparent: u8,
-    ) -> Result<Vec<u8>, MovieError> {
-        let [left, top, width, height] = [rect.x, rect.y, rect.width, rect.height].map(|side| side as u16);
-        let frame = gif::Frame {
-            delay,
-            transparent: Some(transparent),
-            top,
-            left,
-            width,
-            height,
-            buffer: Cow::Borrowed(indexes),
-            ..gif::Frame::default()
-        };
-        self.0.write_frame(&frame).map_err(refused)?;
-        Ok(std::mem::take(self.0.get_mut()))
-    }
-
-    fn end(self) -> Result<Vec<u8>, MovieError> {
-        self.0.into_inner().map_err(refused)
-    }
+/// The file of a GIF.
+struct GifOutput {
+    file: MovieFile,
+    ends: FrameEnds,
+    /// Bytes after the last frame.
+    trailer: Vec<u8>,
 }
 
-fn refused(error: gif::EncodingError) -> MovieError {
-    MovieError::Settings { format: GIF.title, reason: error.to_string() }
+impl GifOutput {
+    /// Adds a frame.
+    fn append(&mut self, bytes: &[u8]) -> Result<(), MovieError> {
+        self.file.append(bytes)?;
+        self.ends.add(self.file.size());
+        Ok(())
+    }
+
+    /// Makes the bytes a complete file, except for its name.
+    fn close(&mut self) -> Result<(), MovieError> {
+        self.file.truncate(self.ends.whole())?;
+        self.file.append(&self.trailer)?;
+        Ok(self.file.settle()?)
+    }
 }

@@ -10,7 +10,7 @@ use crate::settings::{GROUP, MovieSettings};
 use crate::sound::MovieSound;
 use crate::srgb::SrgbTable;
 use crate::target::MovieTarget;
-use crate::writer::{MovieFormat, MovieWriter};
+use crate::writer::{EndProgress, MovieFormat, MovieWriter};
 use crate::yuv::YuvPicture;
 use shiguredo_mp4::bitstream::h264::{H264SampleEntryConfig, LengthSize, build_avc1_box};
 use shiguredo_mp4::boxes::SampleEntry;
@@ -84,8 +84,8 @@ impl MovieWriter for Mp4Writer {
         })
     }
 
-    fn end(self: Box<Self>) -> Result<MovieReport, MovieError> {
-        self.file.end(self.notices)
+    fn end(self: Box<Self>, _: EndProgress<'_>) -> Result<MovieReport, MovieError> {
+        self.file.end_with_room(self.notices)
     }
 }
 

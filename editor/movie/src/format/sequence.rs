@@ -6,7 +6,7 @@ use crate::frame_label::frame_label;
 use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::target::{MovieTarget, SequenceName};
-use crate::writer::MovieWriter;
+use crate::writer::{EndProgress, MovieWriter};
 use dragonfly_store::{SaveOptions, Vfs, remove_unfinished, save_one_of_many};
 use std::sync::Arc;
 
@@ -53,7 +53,7 @@ impl MovieWriter for FrameFiles {
         Ok(())
     }
 
-    fn end(self: Box<Self>) -> Result<MovieReport, MovieError> {
+    fn end(self: Box<Self>, _: EndProgress<'_>) -> Result<MovieReport, MovieError> {
         if self.report.frames == 0 { Err(MovieError::Empty) } else { Ok(self.report) }
     }
 }

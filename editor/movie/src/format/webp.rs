@@ -3,14 +3,15 @@
 
 use crate::error::MovieError;
 use crate::error::refused;
+use crate::files::MovieFile;
 use crate::frame::MovieFrame;
+use crate::frame_ends::{FrameEnds, close_with_room, left_out};
 use crate::frame_pair::FramePair;
 use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::target::MovieTarget;
 use crate::timing::start_of;
-use crate::writer::{MovieFormat, MovieWriter};
-use dragonfly_store::GrowingFile;
+use crate::writer::{EndProgress, MovieFormat, MovieWriter};
 use image_webp::{ColorType, WebPEncoder};
 
 pub(super) const WEBP: MovieFormat = MovieFormat {
@@ -39,19 +40,18 @@ const REPLACES: u8 = 0x02;
 
 struct WebpWriter {
     settings: MovieSettings,
-    file: GrowingFile,
+    file: MovieFile,
     pair: FramePair,
-    frames: u64,
+    ends: FrameEnds,
     has_alpha: bool,
-    whole: u64,
 }
 
 impl WebpWriter {
     fn begin(settings: &MovieSettings, target: MovieTarget) -> Result<Self, MovieError> {
         let (files, path) = target.into_path(WEBP.title)?;
-        let file = GrowingFile::create(files, &path)?;
+        let file = MovieFile::create(files, &path)?;
         let (settings, pair) = (settings.clone(), FramePair::new());
-        Ok(Self { settings, file, pair, frames: 0, has_alpha: false, whole: 0 })
+        Ok(Self { settings, file, pair, ends: FrameEnds::default(), has_alpha: false })
     }
 
     /// Returns the bytes before the first frame.
@@ -67,18 +67,19 @@ impl WebpWriter {
     }
 
     fn write(&mut self, number: u64) -> Result<(), MovieError> {
-        if self.frames == 0 {
+        let frames = self.ends.frames();
+        if frames == 0 {
             let header = self.header(8);
             self.file.append(&header)?;
         }
-        let (rect, cut) = self.pair.changed(self.settings.size, self.frames == 0, true);
+        let (rect, cut) = self.pair.changed(self.settings.size, frames == 0, true);
         let mut encoded = Vec::new();
         WebPEncoder::new(&mut encoded)
             .encode(cut.as_flattened(), rect.width, rect.height, ColorType::Rgba8)
             .map_err(|error| refused(number)(error.to_string()))?;
         let image = encoded.get(RIFF..).unwrap_or_default();
         let start = |frame| start_of(frame, self.settings.rate, UNITS);
-        let duration = start(self.frames + 1) - start(self.frames);
+        let duration = start(frames + 1) - start(frames);
         let mut chunk = b"ANMF".to_vec();
         chunk.extend((16 + image.len() as u32).to_le_bytes());
         let values = [rect.x / 2, rect.y / 2, rect.width - 1, rect.height - 1, duration as u32];
@@ -91,6 +92,13 @@ impl WebpWriter {
         self.file.append(&chunk)?;
         Ok(self.file.append(image)?)
     }
+
+    /// Makes the bytes a complete file, except for its name.
+    fn close(&mut self) -> Result<(), MovieError> {
+        self.file.truncate(self.ends.whole())?;
+        let header = self.header(self.ends.whole());
+        Ok(self.file.overwrite(&header, 0)?)
+    }
 }
 
 impl MovieWriter for WebpWriter {
@@ -98,19 +106,20 @@ impl MovieWriter for WebpWriter {
         self.pair.take(frame);
         self.write(number)?;
         self.pair.keep();
-        (self.frames, self.whole) = (self.frames + 1, self.file.size());
+        self.ends.add(self.file.size());
         Ok(())
     }
 
-    fn end(mut self: Box<Self>) -> Result<MovieReport, MovieError> {
-        if self.frames == 0 {
+    fn end(mut self: Box<Self>, _: EndProgress<'_>) -> Result<MovieReport, MovieError> {
+        let all = self.ends.frames();
+        if all == 0 {
             return Err(MovieError::Empty);
         }
-        self.file.truncate(self.whole)?;
-        let header = self.header(self.whole);
-        self.file.overwrite(&header, 0)?;
+        close_with_room(&mut *self, Self::close, |writer| writer.ends.leave_out())?;
+        let frames = self.ends.frames();
         let (path, bytes) = self.file.commit()?;
-        Ok(MovieReport { frames: self.frames, path: Some(path), bytes, notices: Vec::new() })
+        let notices = left_out(frames, all).into_iter().collect();
+        Ok(MovieReport { frames, path: Some(path), bytes, left_out: all - frames, notices })
     }
 }
 

@@ -2,11 +2,12 @@
 
 use crate::error::MovieError;
 use crate::frame::{LARGEST_SIDE, MovieFrame};
+use crate::frame_ends::{FrameEnds, close_with_room, left_out};
 use crate::report::MovieReport;
 use crate::settings::MovieSettings;
 use crate::srgb::SrgbTable;
 use crate::target::{MovieOutput, MovieTarget};
-use crate::writer::{MovieFormat, MovieWriter};
+use crate::writer::{EndProgress, MovieFormat, MovieWriter};
 use crate::yuv::YuvPicture;
 
 pub(super) const Y4M: MovieFormat = MovieFormat {
@@ -26,8 +27,7 @@ struct Y4mWriter {
     table: SrgbTable,
     rgb: Vec<u8>,
     picture: YuvPicture,
-    frames: u64,
-    whole: u64,
+    ends: FrameEnds,
 }
 
 impl Y4mWriter {
@@ -38,9 +38,14 @@ impl Y4mWriter {
             "YUV4MPEG2 W{width} H{height} F{frames}:{seconds} Ip A1:1 C420mpeg2 XYSCSS=420MPEG2 XCOLORRANGE=LIMITED\n"
         );
         output.append(header.as_bytes())?;
-        let whole = output.size();
         let picture = YuvPicture::new(settings.size);
-        Ok(Self { output, table: SrgbTable::new(), rgb: Vec::new(), picture, frames: 0, whole })
+        Ok(Self { output, table: SrgbTable::new(), rgb: Vec::new(), picture, ends: FrameEnds::default() })
+    }
+
+    /// Makes the bytes a complete file, except for its name.
+    fn close(&mut self) -> Result<(), MovieError> {
+        self.output.truncate(self.ends.whole())?;
+        Ok(self.output.settle()?)
     }
 
     fn write(&mut self) -> Result<(), MovieError> {
@@ -57,16 +62,19 @@ impl MovieWriter for Y4mWriter {
         frame.to_opaque(&self.table, &mut self.rgb);
         self.picture.set(&self.rgb, frame.size());
         self.write()?;
-        (self.frames, self.whole) = (self.frames + 1, self.output.size());
+        self.ends.add(self.output.size());
         Ok(())
     }
 
-    fn end(mut self: Box<Self>) -> Result<MovieReport, MovieError> {
-        if self.frames == 0 {
+    fn end(mut self: Box<Self>, _: EndProgress<'_>) -> Result<MovieReport, MovieError> {
+        let all = self.ends.frames();
+        if all == 0 {
             return Err(MovieError::Empty);
         }
-        self.output.truncate(self.whole)?;
+        close_with_room(&mut *self, Self::close, |writer| writer.ends.leave_out())?;
+        let frames = self.ends.frames();
         let (path, bytes) = self.output.end()?;
-        Ok(MovieReport { frames: self.frames, path, bytes, notices: Vec::new() })
+        let notices = left_out(frames, all).into_iter().collect();
+        Ok(MovieReport { frames, path, bytes, left_out: all - frames, notices })
     }
 }

@@ -3,3 +3,4 @@
 pub(crate) mod dither;
 pub(crate) mod histogram;
 pub(crate) mod palette;
+pub(crate) mod pictures;

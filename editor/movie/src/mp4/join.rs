@@ -1,7 +1,8 @@
 //! Parts of a movie that were encoded apart, joined without encoding them again.
 
 use super::part::{MoviePart, PartHead};
-use super::writer::{Mp4File, ticks};
+use super::track::ticks;
+use super::writer::Mp4File;
 use crate::error::MovieError;
 use crate::report::MovieReport;
 use crate::sound::MovieSound;
@@ -22,6 +23,21 @@ pub fn join_movies(
     frames: Range<u64>,
     target: MovieTarget,
     sound: Option<MovieSound>,
+) -> Result<MovieReport, MovieError> {
+    join_movies_with(parts, frames, target, sound, &mut |_, _| true)
+}
+
+/// Joins parts as [`join_movies`]. `progress` receives the number of frames that were copied and that of all, before each frame, and returns
+/// whether to continue.
+///
+/// # Errors
+/// As [`join_movies`], and [`MovieError::Cancelled`] where `progress` returned false.
+pub fn join_movies_with(
+    parts: &[PathBuf],
+    frames: Range<u64>,
+    target: MovieTarget,
+    sound: Option<MovieSound>,
+    progress: &mut dyn FnMut(u64, u64) -> bool,
 ) -> Result<MovieReport, MovieError> {
     let (files, path) = target.into_path("MP4")?;
     let mut heads = Vec::new();
@@ -49,13 +65,20 @@ pub fn join_movies(
             last.wrong(format!("it ends before frame {next}, and the frames from there on are missing"))
         );
     }
+    let mut copied = 0;
     let mut joined = Mp4File::create(Arc::clone(&files), &path, first.label.clone(), rate, sound)?;
     for head in &heads {
         let part = MoviePart::open(&*files, &head.path)?;
         if !part.head().is_same(head) {
             return Err(head.wrong("it was changed while the parts were joined".to_owned()));
         }
-        part.samples(|bytes, is_whole| joined.picture(bytes, is_whole, || Ok(head.entry.clone())))?;
+        part.samples(|bytes, is_whole| {
+            if !progress(copied, frames.end - frames.start) {
+                return Err(MovieError::Cancelled);
+            }
+            copied += 1;
+            joined.picture(bytes, is_whole, || Ok(head.entry.clone()))
+        })?;
     }
     joined.end(Vec::new())
 }

@@ -1,8 +1,10 @@
 //! MP4: pictures and sound with their tables, in a file that plays while it is being loaded; and parts of one joined.
 
+mod growing_sound;
 mod label;
 mod moov;
 mod part;
+mod track;
 mod writer;
 
 pub(crate) mod inspect;

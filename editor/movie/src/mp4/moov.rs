@@ -1,11 +1,11 @@
 //! The tables of an MP4: `ftyp` and `moov`.
 
-use super::label::MovieLabel;
-use super::writer::{TrackKind, TrackTable};
+use super::label::{MovieLabel, plain_box};
+use super::track::{TrackKind, TrackTable};
 use shiguredo_mp4::boxes::{
-    Brand, Co64Box, DinfBox, FtypBox, HdlrBox, MdhdBox, MdiaBox, MediaHeader, MinfBox, MoovBox, MvhdBox,
-    SmhdBox, StblBox, StcoBox, StscBox, StscEntry, StsdBox, StssBox, StszBox, SttsBox, SttsEntry, TkhdBox,
-    TrakBox, VmhdBox,
+    Brand, Co64Box, DinfBox, EdtsBox, ElstBox, ElstEntry, FtypBox, HdlrBox, MdhdBox, MdiaBox, MediaHeader,
+    MinfBox, MoovBox, MvhdBox, SmhdBox, StblBox, StcoBox, StscBox, StscEntry, StsdBox, StssBox, StszBox,
+    SttsBox, SttsEntry, TkhdBox, TrakBox, UnknownBox, VmhdBox,
 };
 use shiguredo_mp4::{Either, Encode, Error, FixedPointNumber, LanguageCode, Mp4FileTime};
 use std::num::NonZeroU32;
@@ -37,7 +37,7 @@ impl MovieTables<'_> {
 
     fn boxes(&self, start: u64, far: bool) -> Result<MoovBox, Error> {
         let timescale = self.tracks.first().map_or(NonZeroU32::MIN, |track| track.timescale);
-        let durations = self.tracks.iter().map(|track| track.duration_in(timescale));
+        let durations = self.tracks.iter().map(|track| track.played_in(timescale));
         let mvhd_box = MvhdBox {
             creation_time: Mp4FileTime::default(),
             modification_time: Mp4FileTime::default(),
@@ -63,7 +63,7 @@ fn track_box(track: &TrackTable, id: u32, timescale: NonZeroU32, start: u64, far
             let header = MediaHeader::Vmhd(VmhdBox { graphicsmode, opcolor });
             (*size, TkhdBox::DEFAULT_VIDEO_VOLUME, HdlrBox::HANDLER_TYPE_VIDE, &b"pictures\0"[..], header)
         }
-        TrackKind::Sound => {
+        TrackKind::Sound { .. } => {
             let header = MediaHeader::Smhd(SmhdBox { balance: SmhdBox::DEFAULT_BALANCE });
             ([0; 2], TkhdBox::DEFAULT_AUDIO_VOLUME, HdlrBox::HANDLER_TYPE_SOUN, &b"sound\0"[..], header)
         }
@@ -76,7 +76,7 @@ fn track_box(track: &TrackTable, id: u32, timescale: NonZeroU32, start: u64, far
         creation_time: Mp4FileTime::default(),
         modification_time: Mp4FileTime::default(),
         track_id: id,
-        duration: track.duration_in(timescale),
+        duration: track.played_in(timescale),
         layer: TkhdBox::DEFAULT_LAYER,
         alternate_group: TkhdBox::DEFAULT_ALTERNATE_GROUP,
         volume,
@@ -99,7 +99,36 @@ fn track_box(track: &TrackTable, id: u32, timescale: NonZeroU32, start: u64, far
     };
     let hdlr_box = HdlrBox { handler_type, name: name.to_vec() };
     let mdia_box = MdiaBox { mdhd_box, hdlr_box, minf_box, unknown_boxes: Vec::new() };
-    TrakBox { tkhd_box, edts_box: None, mdia_box, unknown_boxes: Vec::new() }
+    TrakBox { tkhd_box, edts_box: edit_box(track, timescale), mdia_box, unknown_boxes: Vec::new() }
+}
+
+/// Returns the box with the part of a track that is played, where it is not all of it.
+fn edit_box(track: &TrackTable, timescale: NonZeroU32) -> Option<EdtsBox> {
+    let edit = track.edit?;
+    let entry = ElstEntry {
+        edit_duration: track.played_in(timescale),
+        media_time: edit.skip as i64,
+        media_rate: FixedPointNumber::new(1, 0),
+    };
+    let elst_box = Some(ElstBox { entries: vec![entry] });
+    Some(EdtsBox { elst_box, unknown_boxes: Vec::new() })
+}
+
+/// Returns the boxes with the number of packets that a decoder needs before the one from which it plays.
+fn roll_boxes(packets: u16, samples: u32) -> Vec<UnknownBox> {
+    if packets == 0 {
+        return Vec::new();
+    }
+    // Version 1, one description of two bytes.
+    let mut description = vec![1, 0, 0, 0];
+    description.extend(b"roll\0\0\0\x02\0\0\0\x01");
+    description.extend(0_u16.wrapping_sub(packets).to_be_bytes());
+    // Version 0, one run with that description.
+    let mut samples_of = vec![0, 0, 0, 0];
+    samples_of.extend(b"roll\0\0\0\x01");
+    samples_of.extend(samples.to_be_bytes());
+    samples_of.extend(1_u32.to_be_bytes());
+    vec![plain_box(*b"sgpd", description), plain_box(*b"sbgp", samples_of)]
 }
 
 fn sample_tables(track: &TrackTable, start: u64, far: bool) -> StblBox {
@@ -121,9 +150,9 @@ fn sample_tables(track: &TrackTable, start: u64, far: bool) -> StblBox {
     };
     let durations = track.durations.iter();
     let durations = durations.map(|&(sample_count, sample_delta)| SttsEntry { sample_count, sample_delta });
-    let stss_box = match &track.kind {
-        TrackKind::Pictures { whole, .. } => Some(StssBox { sample_numbers: whole.clone() }),
-        TrackKind::Sound => None,
+    let (stss_box, unknown_boxes) = match &track.kind {
+        TrackKind::Pictures { whole, .. } => (Some(StssBox { sample_numbers: whole.clone() }), Vec::new()),
+        TrackKind::Sound { roll } => (None, roll_boxes(*roll, track.sizes.len() as u32)),
     };
     StblBox {
         stsd_box: StsdBox { entries: vec![track.entry.clone()] },
@@ -135,6 +164,59 @@ fn sample_tables(track: &TrackTable, start: u64, far: bool) -> StblBox {
         stco_or_co64_box,
         stss_box,
         sdtp_box: None,
-        unknown_boxes: Vec::new(),
+        unknown_boxes,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mp4::track::PlayedPart;
+    use shiguredo_mp4::Decode;
+    use shiguredo_mp4::aux::SampleTableAccessor;
+    use shiguredo_mp4::boxes::SampleEntry;
+
+    #[test]
+    fn the_tables_of_many_hours_and_gigabytes_are_read_back() {
+        let number = |number| NonZeroU32::new(number).unwrap();
+        let entry = || SampleEntry::Unknown(plain_box(*b"test", vec![0; 8]));
+        let kind = TrackKind::Pictures { size: [640, 360], whole: vec![number(1)] };
+        let mut pictures = TrackTable::new(kind, entry(), number(24_000));
+        let mut sound = TrackTable::new(TrackKind::Sound { roll: 4 }, entry(), number(48_000));
+        // 60 hours in 30 chunks of four pictures and a packet, each of almost a gigabyte.
+        let (each, side) = (500_000_000_u32, 1_000_000_000_u64);
+        for chunk in 0..30_u64 {
+            for at in 0..4 {
+                pictures.add(5 * side * chunk, each, 43_200_000, at == 0);
+            }
+            sound.add(5 * side * chunk + 4 * side, each, 345_600_000, true);
+        }
+        sound.edit = Some(PlayedPart { skip: 312, played: 48_000 * 3600 * 59 });
+        let label = MovieLabel { first: 0, group: 48, coarseness: 24, tag: String::new() };
+        let (start, length) = (48, 150 * side);
+        let tables = MovieTables { label: &label, tracks: vec![&pictures, &sound], start, length };
+        let bytes = tables.encode().unwrap();
+        let (read, size) = MoovBox::decode(&bytes).unwrap();
+        assert_eq!(size, bytes.len());
+        assert_eq!(read.mvhd_box.duration, 24_000 * 3600 * 60);
+        let [one, two]: [TrakBox; 2] = read.trak_boxes.try_into().unwrap();
+        assert_eq!(one.mdia_box.mdhd_box.duration, 24_000 * 3600 * 60);
+        assert_eq!(two.mdia_box.mdhd_box.duration, 48_000 * 3600 * 60);
+        assert_eq!((one.edts_box.is_none(), two.tkhd_box.duration), (true, 24_000 * 3600 * 59));
+        let edit = &two.edts_box.as_ref().unwrap().elst_box.as_ref().unwrap().entries[0];
+        assert_eq!((edit.edit_duration, edit.media_time), (24_000 * 3600 * 59, 312));
+        let others = &two.mdia_box.minf_box.stbl_box.unknown_boxes;
+        let kinds: Vec<_> = others.iter().map(|found| found.box_type).collect();
+        assert_eq!(format!("{kinds:?}"), "[BoxType(\"sgpd\"), BoxType(\"sbgp\")]");
+        for (track, places) in [(one, [0, 3, 119]), (two, [0, 1, 29])] {
+            let table = SampleTableAccessor::new(track.mdia_box.minf_box.stbl_box).unwrap();
+            let offsets = places.map(|at: u32| table.get_sample(number(at + 1)).unwrap().data_offset());
+            let inserted = start + bytes.len() as u64;
+            let wanted = match table.sample_count() {
+                120 => [0, 3 * u64::from(each), 145 * side + 3 * u64::from(each)],
+                _ => [4 * side, 9 * side, 149 * side],
+            };
+            assert_eq!(offsets, wanted.map(|offset| inserted + offset));
+        }
     }
 }

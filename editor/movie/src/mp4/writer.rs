@@ -1,12 +1,16 @@
 //! An MP4 that grows: samples are written as they come, and the tables are inserted before them at the end.
 
+use super::growing_sound::GrowingSound;
 use super::label::MovieLabel;
 use super::moov::{MovieTables, file_type};
+use super::track::{TrackKind, TrackTable, ticks};
 use crate::error::MovieError;
+use crate::files::MovieFile;
+use crate::frame_ends::left_out;
 use crate::report::MovieReport;
-use crate::sound::{LONGEST_PACKET, MovieSound, SoundPacket, SoundPackets};
+use crate::sound::MovieSound;
 use dragonfly_anim::stage::time::StageRate;
-use dragonfly_store::{GrowingFile, Vfs};
+use dragonfly_store::Vfs;
 use shiguredo_mp4::boxes::SampleEntry;
 use std::num::NonZeroU32;
 use std::path::Path;
@@ -14,121 +18,10 @@ use std::sync::Arc;
 
 /// Header of the box of samples, with a size of 64 bits.
 const SAMPLES_HEADER: u64 = 16;
-/// Lowest number of ticks in a second: some players round times of coarser ones.
-const FEWEST_TICKS: u32 = 10_000;
-
-/// Samples that follow each other in the file.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SampleChunk {
-    /// Offset from the first sample of the file.
-    pub(super) offset: u64,
-    pub(super) samples: u32,
-}
-
-/// Kind of a track, with what only that kind has.
-#[derive(Clone, Debug)]
-pub(super) enum TrackKind {
-    /// Pictures: their size, and the numbers, from 1, of those that need no other one.
-    Pictures { size: [u16; 2], whole: Vec<NonZeroU32> },
-    /// Sound.
-    Sound,
-}
-
-/// The samples of a track.
-#[derive(Clone, Debug)]
-pub(super) struct TrackTable {
-    pub(super) kind: TrackKind,
-    pub(super) entry: SampleEntry,
-    /// Ticks in a second.
-    pub(super) timescale: NonZeroU32,
-    /// Numbers of samples that follow each other, and the duration of each.
-    pub(super) durations: Vec<(u32, u32)>,
-    pub(super) sizes: Vec<u32>,
-    pub(super) chunks: Vec<SampleChunk>,
-}
-
-impl TrackTable {
-    fn new(kind: TrackKind, entry: SampleEntry, timescale: NonZeroU32) -> Self {
-        Self { kind, entry, timescale, durations: Vec::new(), sizes: Vec::new(), chunks: Vec::new() }
-    }
-
-    /// Returns the duration of all samples.
-    pub(super) fn duration(&self) -> u64 {
-        self.durations.iter().map(|(count, each)| u64::from(*count) * u64::from(*each)).sum()
-    }
-
-    /// Returns the duration in other ticks, rounded up.
-    pub(super) fn duration_in(&self, timescale: NonZeroU32) -> u64 {
-        let ticks = u128::from(self.duration()) * u128::from(timescale.get());
-        ticks.div_ceil(u128::from(self.timescale.get())) as u64
-    }
-
-    /// Adds a sample at an offset; `opens` begins a chunk with it.
-    fn add(&mut self, offset: u64, size: u32, duration: u32, opens: bool) {
-        match self.chunks.last_mut().filter(|_| !opens) {
-            Some(chunk) => chunk.samples += 1,
-            None => self.chunks.push(SampleChunk { offset, samples: 1 }),
-        }
-        match self.durations.last_mut().filter(|(_, each)| *each == duration) {
-            Some((count, _)) => *count += 1,
-            None => self.durations.push((1, duration)),
-        }
-        self.sizes.push(size);
-    }
-}
-
-/// Returns ticks in a second and in a frame, so that the rate is exact.
-pub(super) fn ticks(rate: StageRate) -> (NonZeroU32, u32) {
-    let (frames, seconds) = rate.fraction();
-    let mut by = 1;
-    while frames * by < FEWEST_TICKS {
-        by *= 2;
-    }
-    (NonZeroU32::MIN.saturating_add(frames * by - 1), seconds * by)
-}
-
-/// The sound of a movie that is being written.
-struct GrowingSound {
-    packets: Box<dyn SoundPackets + Send>,
-    table: TrackTable,
-    /// A packet that could not be written.
-    waiting: Option<SoundPacket>,
-    is_over: bool,
-    /// Why the sound is over before its end.
-    error: Option<String>,
-}
-
-impl GrowingSound {
-    fn new(sound: MovieSound) -> Self {
-        let packets = sound.into_packets();
-        let table = TrackTable::new(TrackKind::Sound, packets.entry(), packets.timescale());
-        Self { packets, table, waiting: None, is_over: false, error: None }
-    }
-
-    /// Returns the next packet; `None` at the end, and where the sound cannot be read further: the pictures are worth more than the rest of it.
-    fn next(&mut self, most: u32) -> Option<SoundPacket> {
-        if self.is_over || self.waiting.is_some() {
-            return self.waiting.take();
-        }
-        let packet = self.packets.next(most).unwrap_or_else(|error| {
-            self.error = Some(error);
-            None
-        });
-        self.is_over = packet.is_none();
-        packet
-    }
-
-    /// Returns a sentence about a sound that could not be read to its end.
-    fn notice(&self) -> Option<String> {
-        let error = self.error.as_ref()?;
-        let seconds = self.table.duration() as f64 / f64::from(self.table.timescale.get());
-        Some(format!("The sound ends at {seconds:.2} s, because the rest could not be read: {error}"))
-    }
-}
 
 /// An MP4 that grows.
 pub(crate) struct Mp4File {
-    file: GrowingFile,
+    file: MovieFile,
     label: MovieLabel,
     rate: StageRate,
     pictures: Option<TrackTable>,
@@ -147,7 +40,7 @@ impl Mp4File {
         rate: StageRate,
         sound: Option<MovieSound>,
     ) -> Result<Self, MovieError> {
-        let mut file = GrowingFile::create(files, path)?;
+        let mut file = MovieFile::create(files, path)?;
         file.append(&file_type().map_err(unencoded)?)?;
         let start = file.size() + SAMPLES_HEADER;
         file.append(&samples_header(0))?;
@@ -190,7 +83,7 @@ impl Mp4File {
         table.add(offset, size, duration, is_whole);
         match &mut table.kind {
             TrackKind::Pictures { whole, .. } if is_whole => whole.push(place),
-            TrackKind::Pictures { .. } | TrackKind::Sound => {}
+            TrackKind::Pictures { .. } | TrackKind::Sound { .. } => {}
         }
         self.end += u64::from(size);
         Ok(())
@@ -199,45 +92,86 @@ impl Mp4File {
     /// Adds the sound of the pictures so far: whole packets, or at the end all of it.
     fn add_sound(&mut self, is_end: bool) -> Result<(), MovieError> {
         let (Some(pictures), Some(sound)) = (&self.pictures, &mut self.sound) else { return Ok(()) };
-        let until = pictures.duration_in(sound.table.timescale);
         let mut opens = true;
-        let mut now = sound.table.duration();
-        while now < until {
-            let left = u32::try_from(until - now).unwrap_or(u32::MAX);
-            if !is_end && left < LONGEST_PACKET {
-                break;
-            }
-            let Some(packet) = sound.next(left) else { break };
+        while let Some(packet) = sound.next(pictures, is_end) {
             if let Err(error) = self.file.append(&packet.bytes) {
-                sound.waiting = Some(packet);
+                sound.keep(packet);
                 return Err(error.into());
             }
             let size = packet.bytes.len() as u32;
             sound.table.add(self.end - self.start, size, packet.duration, opens);
             self.end += u64::from(size);
-            now += u64::from(packet.duration);
             opens = false;
         }
         Ok(())
     }
 
     /// Writes the tables. `notices` are those of the pictures.
-    pub(crate) fn end(mut self, mut notices: Vec<String>) -> Result<MovieReport, MovieError> {
+    pub(crate) fn end(mut self, notices: Vec<String>) -> Result<MovieReport, MovieError> {
+        self.close()?;
+        let all = self.frames();
+        self.commit(notices, all)
+    }
+
+    /// Writes the tables. Where the disk has no room for everything, the last groups of pictures are left out until it has.
+    #[cfg_attr(not(feature = "h264"), allow(dead_code))]
+    pub(crate) fn end_with_room(mut self, notices: Vec<String>) -> Result<MovieReport, MovieError> {
+        let all = self.frames();
+        let mut groups = 1;
+        while let Err(error) = self.close() {
+            // Samples that were moved already cannot be moved back.
+            if !error.is_out_of_room() || self.file.size() > self.end || !self.leave_out(groups) {
+                return Err(error);
+            }
+            groups *= 2;
+        }
+        self.commit(notices, all)
+    }
+
+    /// Makes the bytes a complete file, except for its name.
+    fn close(&mut self) -> Result<(), MovieError> {
         self.file.truncate(self.end)?;
         self.add_sound(true)?;
-        let pictures = self.pictures.as_ref().filter(|table| !table.sizes.is_empty());
-        let sound = self.sound.as_ref().map(|sound| &sound.table).filter(|table| !table.sizes.is_empty());
-        let tracks = [pictures.ok_or(MovieError::Empty)?].into_iter().chain(sound).collect();
+        let Some(pictures) = self.pictures.as_ref().filter(|table| !table.sizes.is_empty()) else {
+            return Err(MovieError::Empty);
+        };
+        let sound = self.sound.as_mut().and_then(|sound| sound.ended(pictures));
+        let tracks = [pictures].into_iter().chain(sound).collect();
         let length = self.end - self.start;
         let tables = MovieTables { label: &self.label, tracks, start: self.start, length };
         let tables = tables.encode().map_err(unencoded)?;
         let header = self.start - SAMPLES_HEADER;
         self.file.overwrite(&samples_header(length), header)?;
-        self.file.insert(&tables, header)?;
-        notices.extend(self.sound.as_ref().and_then(GrowingSound::notice));
+        Ok(self.file.insert(&tables, header)?)
+    }
+
+    /// Leaves out the last groups of pictures with their sound, or half of the pictures where there are fewer groups. Returns whether
+    /// pictures are left.
+    fn leave_out(&mut self, groups: usize) -> bool {
+        let Some(pictures) = &mut self.pictures else { return false };
+        let begins = match &pictures.kind {
+            TrackKind::Pictures { whole, .. } => {
+                whole.len().checked_sub(groups).filter(|at| *at > 0).and_then(|at| whole.get(at))
+            }
+            TrackKind::Sound { .. } => None,
+        };
+        let first = begins.map_or(pictures.sizes.len() / 2, |number| number.get() as usize - 1);
+        let Some(offset) = pictures.offset_of(first).filter(|_| first > 0) else { return false };
+        pictures.cut(offset);
+        if let Some(sound) = &mut self.sound {
+            sound.cut(offset);
+        }
+        self.end = self.start + offset;
+        true
+    }
+
+    /// Gives the file its name; `all` is the number of frames that were to be in it.
+    fn commit(self, mut notices: Vec<String>, all: u64) -> Result<MovieReport, MovieError> {
         let frames = self.frames();
+        notices.extend(left_out(frames, all));
+        notices.extend(self.sound.as_ref().and_then(GrowingSound::notice));
         let (path, bytes) = self.file.commit()?;
-        Ok(MovieReport { frames, path: Some(path), bytes, notices })
+        Ok(MovieReport { frames, path: Some(path), bytes, left_out: all - frames, notices })
     }
 }
 

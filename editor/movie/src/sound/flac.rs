@@ -2,7 +2,7 @@
 //! same bytes on every processor.
 
 use super::bits::SoundBits;
-use super::{ReadSamples, SoundPacket, SoundPackets};
+use super::head::{ReadSamples, SoundHead, SoundPacket, SoundPackets};
 use crc::{CRC_8_SMBUS, CRC_16_UMTS, Crc};
 use shiguredo_mp4::boxes::{AudioSampleEntryFields, DflaBox, FlacBox, FlacMetadataBlock, SampleEntry};
 use shiguredo_mp4::{FixedPointNumber, Uint};
@@ -24,8 +24,8 @@ const MOST_IDLE: u32 = 1_000;
 const MOST_CHANNELS: usize = 8;
 const HIGHEST_RATE: u32 = 655_350;
 
-const HEADER_CRC: Crc<u8> = Crc::<u8>::new(&CRC_8_SMBUS);
-const FRAME_CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_UMTS);
+pub(super) const HEADER_CRC: Crc<u8> = Crc::<u8>::new(&CRC_8_SMBUS);
+pub(super) const FRAME_CRC: Crc<u16> = Crc::<u16>::new(&CRC_16_UMTS);
 
 /// Samples that are encoded block by block.
 pub(super) struct FlacEncoder {
@@ -49,11 +49,7 @@ impl FlacEncoder {
 }
 
 impl SoundPackets for FlacEncoder {
-    fn timescale(&self) -> NonZeroU32 {
-        self.rate
-    }
-
-    fn entry(&self) -> SampleEntry {
+    fn head(&self) -> SoundHead {
         let mut info = SoundBits::default();
         // Smallest and largest block, sizes of frames that are not known.
         info.put(BLOCK as u32, 16);
@@ -65,21 +61,14 @@ impl SoundPackets for FlacEncoder {
         info.put(DEPTH - 1, 5);
         // The number of samples and their checksum are not known.
         (0..36 / 4 + 128 / 4).for_each(|_| info.put(0, 4));
-        let block = FlacMetadataBlock {
-            last_metadata_block_flag: Uint::new(1),
-            block_type: Uint::new(0),
-            block_data: info.aligned().clone(),
-        };
-        SampleEntry::Flac(FlacBox {
-            audio: AudioSampleEntryFields {
-                data_reference_index: NonZeroU16::MIN,
-                channelcount: self.channels as u16,
-                samplesize: DEPTH as u16,
-                samplerate: FixedPointNumber::new(u16::try_from(self.rate.get()).unwrap_or(0), 0),
-            },
-            dfla_box: DflaBox { metadata_blocks: vec![block] },
-            unknown_boxes: Vec::new(),
-        })
+        SoundHead {
+            entry: flac_entry(info.aligned().clone(), self.rate, self.channels as u16, DEPTH as u16),
+            timescale: self.rate,
+            longest: BLOCK as u32,
+            skip: 0,
+            played: None,
+            roll: 0,
+        }
     }
 
     fn next(&mut self, most: u32) -> Result<Option<SoundPacket>, String> {
@@ -112,6 +101,26 @@ impl SoundPackets for FlacEncoder {
         self.block += 1;
         Ok(Some(SoundPacket { bytes, duration: length as u32 }))
     }
+}
+
+/// Returns the description of FLAC in an MP4, with the parameters of the stream as the format writes them.
+pub(super) fn flac_entry(parameters: Vec<u8>, rate: NonZeroU32, channels: u16, depth: u16) -> SampleEntry {
+    let block = FlacMetadataBlock {
+        last_metadata_block_flag: Uint::new(1),
+        block_type: FlacMetadataBlock::BLOCK_TYPE_STREAMINFO,
+        block_data: parameters,
+    };
+    SampleEntry::Flac(FlacBox {
+        audio: AudioSampleEntryFields {
+            data_reference_index: NonZeroU16::MIN,
+            channelcount: channels,
+            samplesize: depth,
+            // A higher rate is only among the parameters.
+            samplerate: FixedPointNumber::new(u16::try_from(rate.get()).unwrap_or(0), 0),
+        },
+        dfla_box: DflaBox { metadata_blocks: vec![block] },
+        unknown_boxes: Vec::new(),
+    })
 }
 
 /// Returns a sample as an integer; what is no number is silence.

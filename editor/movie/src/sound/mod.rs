@@ -2,22 +2,20 @@
 
 mod bits;
 mod flac;
+mod head;
+
+pub use head::ReadSamples;
+pub(crate) use head::{SoundPacket, SoundPackets};
 
 use crate::error::MovieError;
-use shiguredo_mp4::boxes::SampleEntry;
 use std::fmt;
-use std::num::NonZeroU32;
-
-/// Appends the next samples of all channels, one after the other, from -1 to 1. Returns false at the end; an error is a clause. A source that
-/// gives none many times in a row without an end counts as one that cannot be read.
-pub type ReadSamples = Box<dyn FnMut(&mut Vec<f32>) -> Result<bool, String> + Send>;
 
 /// The sound of a movie, from its start on; what is longer than the movie is cut.
 pub struct MovieSound(Box<dyn SoundPackets + Send>);
 
 impl fmt::Debug for MovieSound {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "MovieSound({} per second)", self.0.timescale())
+        write!(out, "MovieSound({} per second)", self.0.head().timescale)
     }
 }
 
@@ -34,28 +32,4 @@ impl MovieSound {
     pub(crate) fn into_packets(self) -> Box<dyn SoundPackets + Send> {
         self.0
     }
-}
-
-/// Largest duration of a packet in ticks.
-pub(crate) const LONGEST_PACKET: u32 = 8192;
-
-/// A packet of sound.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct SoundPacket {
-    pub(crate) bytes: Vec<u8>,
-    /// Duration in ticks.
-    pub(crate) duration: u32,
-}
-
-/// Packets of sound in order.
-pub(crate) trait SoundPackets {
-    /// Returns ticks in a second.
-    fn timescale(&self) -> NonZeroU32;
-
-    /// Returns the description of the packets.
-    fn entry(&self) -> SampleEntry;
-
-    /// Returns the next packet, of at most [`LONGEST_PACKET`] ticks; of at most `most` where packets can be made shorter; `None` at the end. An
-    /// error is a clause.
-    fn next(&mut self, most: u32) -> Result<Option<SoundPacket>, String>;
 }
