@@ -4,6 +4,8 @@ mod animations;
 mod broken;
 mod cancel;
 #[cfg(feature = "h264")]
+mod copied_sound;
+#[cfg(feature = "h264")]
 mod environment;
 mod frames;
 mod full_disk;
@@ -19,6 +21,8 @@ mod second_decoder;
 mod sequences;
 #[cfg(feature = "h264")]
 mod sound;
+#[cfg(feature = "h264")]
+mod sound_files;
 mod stream;
 #[cfg(feature = "h264")]
 mod tracks;
