@@ -9,15 +9,16 @@ use dragonfly_movie::{
 use std::path::{Path, PathBuf};
 
 /// So large that the buffer of a file is written between frames.
-const SIZE: [u32; 2] = [240, 240];
+const LARGE: [u32; 2] = [240, 240];
+const SMALL: [u32; 2] = [32, 32];
 
 /// Begins a movie over an old file, and writes frames of noise.
-fn begun(format: &MovieFormat, path: &Path, count: u64) -> Movie {
-    let settings = MovieSettings { coarseness: 10, ..MovieSettings::new(SIZE, rate("24")) };
+fn begun(format: &MovieFormat, path: &Path, size: [u32; 2], count: u64) -> Movie {
+    let settings = MovieSettings { coarseness: 10, ..MovieSettings::new(size, rate("24")) };
     let mut movie = Movie::begin(format, &settings, MovieTarget::path(path)).unwrap();
     let mut random = Random::new(17);
     for _ in 0..count {
-        movie.frame(MovieFrame::srgb(SIZE, &noise(SIZE, &mut random))).unwrap();
+        movie.frame(MovieFrame::srgb(size, &noise(size, &mut random))).unwrap();
     }
     assert_eq!(movie.next_frame(), count);
     movie
@@ -37,7 +38,7 @@ fn a_cancelled_movie_leaves_the_old_file_and_nothing_else() {
             let folder = Folder::new("movie-cancel");
             let path = folder.join("it");
             std::fs::write(&path, "old").unwrap();
-            let movie = begun(format, &path, count);
+            let movie = begun(format, &path, LARGE, count);
             assert!(names(&folder).len() > 1, "{}: no temporary file", format.name);
             movie.cancel();
             assert_eq!(names(&folder), [path.clone()], "{}, {count} frames", format.name);
@@ -50,7 +51,7 @@ fn a_cancelled_movie_leaves_the_old_file_and_nothing_else() {
 fn a_cancelled_sequence_leaves_its_complete_frames_and_nothing_else() {
     for format in MOVIE_FORMATS.iter().filter(|format| format.is_sequence) {
         let folder = Folder::new("movie-cancel-frames");
-        begun(format, &folder.join("f.#.x"), 2).cancel();
+        begun(format, &folder.join("f.#.x"), SMALL, 2).cancel();
         assert_eq!(names(&folder), ["f.0.x", "f.1.x"].map(|name| folder.join(name)), "{}", format.name);
     }
 }
@@ -62,14 +63,14 @@ fn a_gif_is_cancelled_while_it_is_completed() {
     std::fs::write(&path, "old").unwrap();
     let format = dragonfly_movie::movie_format("gif").unwrap();
     let mut seen = Vec::new();
-    let ended = begun(format, &path, 4).end_with(&mut |done, all| {
+    let ended = begun(format, &path, SMALL, 4).end_with(&mut |done, all| {
         seen.push((done, all));
         done < 2
     });
     assert!(matches!(ended, Err(MovieError::Cancelled)), "{ended:?}");
     assert_eq!(seen, [(0, 4), (1, 4), (2, 4)]);
     assert_eq!((names(&folder), std::fs::read(&path).unwrap()), (vec![path.clone()], b"old".to_vec()));
-    assert_eq!(begun(format, &path, 4).end_with(&mut |_, _| true).unwrap().frames, 4);
+    assert_eq!(begun(format, &path, SMALL, 4).end_with(&mut |_, _| true).unwrap().frames, 4);
 }
 
 #[cfg(feature = "h264")]

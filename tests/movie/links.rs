@@ -108,7 +108,7 @@ fn every_call_that_fails_leaves_the_old_content_of_a_file_with_several_names_or_
     let counting = FaultyFiles::once(u64::MAX, Fault::Io);
     run(&counting).0.unwrap();
     for call in 1..=counting.calls() {
-        for fault in Fault::ALL {
+        for fault in [Fault::Io, Fault::Full, Fault::Interrupted] {
             let (written, content) = run(&FaultyFiles::once(call, fault));
             let about = format!("call {call}, {fault:?}, {written:?}, {:?}", content.keys());
             let [it, other] = ["it", "other"].map(|name| &content[name]);
@@ -122,7 +122,7 @@ fn every_call_that_fails_leaves_the_old_content_of_a_file_with_several_names_or_
                     assert!(copy.is_none_or(|copy| *copy == old), "{about}");
                 }
             }
-            // What else is there is complete, or begins with a dot.
+            // Other files are the complete movie, or begin with a dot.
             let rest = content
                 .iter()
                 .filter(|(name, _)| !name.starts_with('.') && *name != "it" && *name != "other");

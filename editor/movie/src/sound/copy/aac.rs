@@ -19,7 +19,7 @@ pub(super) const AAC: CopiedFormat = CopiedFormat {
 const PACKET: u32 = 1024;
 /// Number of packets that a decoder needs before the one from which it plays.
 pub(super) const ROLL: u16 = 1;
-/// Largest number that a decoder can be told as the size of its buffer.
+/// Largest size of the buffer of a decoder that the description of AAC has.
 const LARGEST_BUFFER: u32 = 0xFF_FFFF;
 
 fn read(file: Vec<u8>, start: usize) -> Result<CopiedPackets, Unreadable> {

@@ -8,7 +8,8 @@ mod opus;
 mod packets;
 mod tag;
 
-use packets::{CopiedFormat, CopiedPackets};
+use packets::{CopiedFormat, CopiedPackets, Unreadable};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// All formats.
 const COPIED_FORMATS: &[CopiedFormat] = &[flac::FLAC, opus::OPUS, mp4::MP4, aac::AAC, mp3::MP3];
@@ -20,8 +21,10 @@ pub(super) fn read(file: Vec<u8>) -> Result<CopiedPackets, String> {
         let titles: Vec<&str> = COPIED_FORMATS.iter().map(|format| format.title).collect();
         return Err(format!("the file is none of {}", titles.join(", ")));
     };
-    (format.read)(file, start)
-        .map_err(|error| format!("{}, byte {}: {}", format.title, error.at, error.reason))
+    // A crate that panics is like one that fails.
+    let found = catch_unwind(AssertUnwindSafe(|| (format.read)(file, start)));
+    let found = found.unwrap_or_else(|_| Err(Unreadable::new(start, "the reader failed")));
+    found.map_err(|error| format!("{}, byte {}: {}", format.title, error.at, error.reason))
 }
 
 /// Returns the title of the format of a file, by its first bytes.

@@ -103,7 +103,7 @@ fn edit(
 
 /// Returns the number of packets that a decoder needs before the one from which it plays; an error, a clause, for sound that is not copied.
 fn roll(entry: &SampleEntry, longest: u32) -> Result<u16, String> {
-    let other = || format!("its sound is {:?}, which is not copied", entry.box_type());
+    let other = || format!("its sound is {}, which is not copied", entry.box_type());
     match entry {
         SampleEntry::Mp4a(sound) => {
             let kind = sound.esds_box.es.dec_config_descr.object_type_indication;

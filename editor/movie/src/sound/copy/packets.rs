@@ -102,7 +102,7 @@ impl FoundPackets {
     }
 }
 
-/// What a format knows of its packets; see [`SoundHead`].
+/// The part of a [`SoundHead`] that a format reads.
 pub(super) struct CopiedHead {
     pub(super) entry: SampleEntry,
     pub(super) timescale: NonZeroU32,
