@@ -68,11 +68,14 @@ fn order(format: &str, target: MovieTarget, frames: Range<u64>, resume: bool) ->
     }
 }
 
+/// Three numbers of a report about a frame.
+type ReportedFrame = (u64, u64, u64);
+
 /// Renders a movie. Returns also its frames and warnings, as they were reported.
 fn render(
     order: MovieOrder,
     source: &mut Gradients,
-) -> (Result<RenderedMovie, MovieRenderError>, Vec<(u64, u64, u64)>, Vec<String>) {
+) -> (Result<RenderedMovie, MovieRenderError>, Vec<ReportedFrame>, Vec<String>) {
     let thread = Thread::start("movie").expect("a thread");
     let (mut frames, mut warnings) = (Vec::new(), Vec::new());
     let mut news = |news: MovieNews<'_>| match news {

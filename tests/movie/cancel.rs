@@ -41,7 +41,7 @@ fn a_cancelled_movie_leaves_the_old_file_and_nothing_else() {
             let movie = begun(format, &path, LARGE, count);
             assert!(names(&folder).len() > 1, "{}: no temporary file", format.name);
             movie.cancel();
-            assert_eq!(names(&folder), [path.clone()], "{}, {count} frames", format.name);
+            assert_eq!(names(&folder), std::slice::from_ref(&path), "{}, {count} frames", format.name);
             assert_eq!(std::fs::read(&path).unwrap(), b"old", "{}", format.name);
         }
     }

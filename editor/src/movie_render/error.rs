@@ -19,6 +19,9 @@ pub enum MovieRenderError {
     /// The system gave no thread for the encoder.
     #[error("no thread could be started: {0}")]
     Thread(#[source] io::Error),
+    /// The disk was full when the movie was completed.
+    #[error("the disk is full: the last {0} frames are missing in what was written")]
+    Full(u64),
     /// The encoder ended without a result: a bug.
     #[error("the encoder failed")]
     Encoder,

@@ -8,6 +8,14 @@ use dragonfly_document::Cancel;
 use dragonfly_movie::{Movie, MovieReport};
 use dragonfly_runtime::ThreadHandle;
 
+/// Returns the report of a movie that has all of its frames.
+pub(super) fn whole(report: MovieReport) -> Result<MovieReport, MovieRenderError> {
+    match report.left_out {
+        0 => Ok(report),
+        frames => Err(MovieRenderError::Full(frames)),
+    }
+}
+
 /// A movie that is being rendered, in one piece or in several.
 pub(super) struct MovieRun<'a> {
     pub(super) source: &'a mut dyn FrameSource,
@@ -37,6 +45,6 @@ impl MovieRun<'_> {
             pipe.frame(number, frame)?;
             (self.news)(MovieNews::Frame(self.clock.rendered(number)));
         }
-        pipe.end()
+        whole(pipe.end()?)
     }
 }

@@ -36,7 +36,7 @@ pub struct RenderedMovie {
 
 impl RenderedMovie {
     pub(super) fn of(report: MovieReport, kept: u64) -> Self {
-        let MovieReport { frames: _, path, bytes, notices } = report;
+        let MovieReport { frames: _, left_out: _, path, bytes, notices } = report;
         Self { kept, path, bytes, notices }
     }
 }

@@ -1,7 +1,7 @@
 //! An MP4 that is rendered in parts, which are joined at the end. Each part is complete or not there, so that a movie that was interrupted is resumed.
 
 use super::error::MovieRenderError;
-use super::movie_run::MovieRun;
+use super::movie_run::{MovieRun, whole};
 use super::order::{MovieOrder, RenderedMovie};
 use dragonfly_document::make_folder;
 use dragonfly_movie::{
@@ -69,7 +69,7 @@ pub(super) fn render_parts(
     if run.cancel.is_cancelled() {
         return Err(MovieRenderError::Cancelled);
     }
-    let mut report = join_movies(&paths, range, order.target, order.sound)?;
+    let mut report = whole(join_movies(&paths, range, order.target, order.sound)?)?;
     folder.remove();
     report.notices.splice(0..0, notices);
     Ok(RenderedMovie::of(report, run.clock.kept()))

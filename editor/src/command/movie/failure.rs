@@ -12,9 +12,10 @@ impl From<MovieRenderError> for Failure {
             MovieRenderError::Movie(error) => error.into(),
             MovieRenderError::Graphics(error) => refusal(error),
             MovieRenderError::Folder(reason) => Self::Input(reason),
-            MovieRenderError::Thread(_) | MovieRenderError::Encoder | MovieRenderError::Cancelled => {
-                Self::Machine(error.to_string())
-            }
+            MovieRenderError::Full(_)
+            | MovieRenderError::Thread(_)
+            | MovieRenderError::Encoder
+            | MovieRenderError::Cancelled => Self::Machine(error.to_string()),
         }
     }
 }
@@ -24,8 +25,9 @@ impl From<MovieError> for Failure {
         match error {
             MovieError::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => Self::OutputClosed,
             MovieError::Stream(error) => Self::Machine(format!("standard output: {error}")),
-            MovieError::Frame { .. } => Self::Machine(error.to_string()),
+            MovieError::Frame { .. } | MovieError::Cancelled => Self::Machine(error.to_string()),
             MovieError::File(_)
+            | MovieError::Kept { .. }
             | MovieError::Settings { .. }
             | MovieError::Part { .. }
             | MovieError::Sound(_)

@@ -69,10 +69,10 @@ fn listed(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 
 /// Returns the frames from the first to the last one of all parts.
 fn frames_of(parts: &[PathBuf]) -> Result<MovieFrames, Failure> {
-    let mut all = u64::MAX..0;
+    let (mut first, mut end) = (u64::MAX, 0);
     for part in parts {
         let frames = part_frames(&RealFiles, part)?;
-        all = all.start.min(frames.start)..all.end.max(frames.end);
+        (first, end) = (first.min(frames.start), end.max(frames.end));
     }
-    MovieFrames::new(all).ok_or_else(|| Failure::input("--join", "the parts have no frames"))
+    MovieFrames::new(first..end).ok_or_else(|| Failure::input("--join", "the parts have no frames"))
 }

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 pub(super) const MP4: CopiedFormat = CopiedFormat {
     title: "sound in MP4",
-    sniff: |start| start.get(4..8).is_some_and(|kind| KINDS.iter().any(|known| *known == kind)),
+    sniff: |start| start.get(4..8).is_some_and(|kind| KINDS.contains(&kind)),
     read,
 };
 
