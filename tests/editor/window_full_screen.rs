@@ -9,7 +9,7 @@ use dragonfly_kit::eventually;
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
 /// The menu "View" and its entry "Full screen".
-const MENU: [(i16, i16); 2] = [(350, 14), (380, 543)];
+const MENU: [(i16, i16); 2] = [(350, 14), (380, 571)];
 
 #[test]
 fn f11_and_the_menu_toggle_full_screen() {

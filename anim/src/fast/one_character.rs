@@ -19,7 +19,7 @@ use super::simd::{Kernel, Rows, Simd};
 use super::to_root::{RootPoses, fit, to_parent, to_root_with};
 
 /// Computes the final matrices of `played`.
-pub(super) struct FinalPoses<'a> {
+pub(super) struct CharacterFinals<'a> {
     pub(super) rig: &'a Rig,
     pub(super) binding: &'a SkinBinding,
     pub(super) played: &'a PlayedPose,
@@ -30,7 +30,7 @@ pub(super) struct FinalPoses<'a> {
     pub(super) out: &'a mut [Matrix34],
 }
 
-impl Kernel for FinalPoses<'_> {
+impl Kernel for CharacterFinals<'_> {
     type Output = ();
 
     #[inline(always)]

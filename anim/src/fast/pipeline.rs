@@ -14,7 +14,7 @@ use super::blend::{Blend, PoseLayer};
 use super::crowd::{Crowd, CrowdFinals};
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
-use super::one_character::FinalPoses;
+use super::one_character::CharacterFinals;
 use super::playable::Playable;
 use super::played::{LocalPoses, PlayedPose};
 use super::pose::Pose;
@@ -193,7 +193,7 @@ fn character<S: Simd, T: Playable>(
 ) {
     let Scratch { sampled, blended, to_parent, to_root, .. } = scratch;
     pose::<S, T>(rig, layers, sampled, blended);
-    S::call(FinalPoses { rig, binding, played: blended, locals: to_parent, roots: to_root, out });
+    S::call(CharacterFinals { rig, binding, played: blended, locals: to_parent, roots: to_root, out });
 }
 
 /// Computes the final matrices of a full register of characters, and returns whether all numbers are finite; otherwise

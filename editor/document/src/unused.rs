@@ -83,5 +83,9 @@ pub(super) fn remove(model: &Path, needed: &[String]) -> Vec<PathBuf> {
 /// Returns whether a file contains the hash in the name of a buffer file.
 fn mentions(bytes: &[u8], hash: u64) -> bool {
     let wanted = format!("{hash:016x}");
-    bytes.windows(wanted.len()).any(|window| window.eq_ignore_ascii_case(wanted.as_bytes()))
+    let first = wanted.as_bytes().first().map(u8::to_ascii_uppercase);
+    // Most places are excluded by their first byte, which costs a fraction of a comparison.
+    bytes.windows(wanted.len()).any(|window| {
+        window.first().map(u8::to_ascii_uppercase) == first && window.eq_ignore_ascii_case(wanted.as_bytes())
+    })
 }
