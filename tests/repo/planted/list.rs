@@ -125,7 +125,7 @@ pub(crate) const PLANTS: &[Plant] = &[
             ("shaders/planted.wgsl", "", include_str!("files/shader.txt")),
             (
                 "editor/picture/src/shaders.rs",
-                "    GRID = \"grid\": FRAME;",
+                "    GRID = \"grid\": FRAME COLOR DISPLAY;",
                 "\n    /// The planted shader.\n    PLANTED = \"planted\": FRAME;",
             ),
             ("ARCHITECTURE.md", "`surface`, `grid`, ", "`planted`, "),
