@@ -31,6 +31,7 @@ pub mod draw_set;
 mod effects;
 mod error;
 pub mod frustum;
+mod full_screen;
 pub mod ghosts;
 pub mod gizmo;
 pub mod gpu;

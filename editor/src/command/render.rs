@@ -103,6 +103,8 @@ impl RenderView {
             ("--yaw", angle(self.yaw, usual.yaw)),
             ("--pitch", angle(self.pitch, usual.pitch)),
             ("--background", self.background.map(hex)),
+            ("--samples", (self.samples != usual.samples).then(|| self.samples.to_string())),
+            ("--shutter", angle(self.shutter, usual.shutter)),
         ];
         let chosen = options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?]));
         let skeleton = self.skeleton.then(|| "--skeleton".to_owned());

@@ -3,6 +3,9 @@
 //! Sums are 32-bit floating-point numbers in two textures that are written in turn, because not every device can blend them; the order of
 //! additions is that of the sub-frames, so the result is the same whenever it is computed.
 
+use crate::full_screen::{
+    draw_full_screen, fragment_layout, full_screen_pipeline, image_entry, uniform_entry,
+};
 use crate::gpu::{Gpu, SUM_FORMAT};
 use crate::shaders;
 use crate::target::SceneTarget;
@@ -51,7 +54,9 @@ impl FrameSum {
         let sums = [(); 2].map(|()| SumTexture::new(gpu, "sum of sub-frames", SUM_FORMAT, size));
         let developed = SumTexture::new(gpu, "developed frame", DEVELOPED_FORMAT, size);
         let uniform = gpu.buffer("develop", size_of::<DevelopUniform>(), wgpu::BufferUsages::UNIFORM);
-        let layout = layout(gpu);
+        // The sum, the target of sub-frames, the uniform.
+        let bindings = [image_entry(false), image_entry(false), uniform_entry::<DevelopUniform>()];
+        let layout = fragment_layout(&gpu.device, "accumulate", &bindings);
         let groups = [&sums[0], &sums[1]].map(|sum| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("accumulate"),
@@ -70,7 +75,9 @@ impl FrameSum {
             })
         });
         let module = shaders::ACCUMULATE.module(&gpu.device);
-        let pipeline = |fragment, format| pipeline(gpu, &module, &layout, fragment, format);
+        let pipeline = |fragment, format| {
+            full_screen_pipeline(&gpu.device, &module, &layout, ["vs_accumulate", fragment], format)
+        };
         Self {
             first: pipeline("fs_first", SUM_FORMAT),
             add: pipeline("fs_add", SUM_FORMAT),
@@ -104,7 +111,7 @@ impl FrameSum {
     pub(crate) fn add(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let next = (self.count % 2) as usize;
         let pipeline = if self.count == 0 { &self.first } else { &self.add };
-        draw(encoder, &self.sums[next].view, pipeline, &self.groups[1 - next]);
+        draw_full_screen(encoder, &self.sums[next].view, pipeline, &self.groups[1 - next]);
         self.count += 1;
     }
 
@@ -116,7 +123,7 @@ impl FrameSum {
             pad: [0.0; 2],
         };
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        draw(encoder, &self.developed.view, &self.develop, &self.groups[self.newest()]);
+        draw_full_screen(encoder, &self.developed.view, &self.develop, &self.groups[self.newest()]);
     }
 
     /// The image that was developed last.
@@ -129,7 +136,7 @@ impl FrameSum {
     pub(crate) fn write_linear(&self, encoder: &mut wgpu::CommandEncoder) -> &wgpu::Texture {
         let newest = self.newest();
         let free = &self.sums[1 - newest];
-        draw(encoder, &free.view, &self.linear, &self.groups[newest]);
+        draw_full_screen(encoder, &free.view, &self.linear, &self.groups[newest]);
         &free.texture
     }
 
@@ -156,83 +163,4 @@ impl SumTexture {
         });
         Self { view: texture.create_view(&Default::default()), texture }
     }
-}
-
-/// Draws every pixel of `view`.
-fn draw(
-    encoder: &mut wgpu::CommandEncoder,
-    view: &wgpu::TextureView,
-    pipeline: &wgpu::RenderPipeline,
-    group: &wgpu::BindGroup,
-) {
-    let ops =
-        wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store };
-    let color = wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops };
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("accumulate"),
-        color_attachments: &[Some(color)],
-        ..Default::default()
-    });
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, group, &[]);
-    pass.draw(0..3, 0..1);
-}
-
-/// Describes the bind group: the sum, the target of sub-frames, the uniform.
-fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    };
-    let texture = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: wgpu::BufferSize::new(size_of::<DevelopUniform>() as u64),
-    };
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("accumulate"),
-        entries: &[entry(0, texture), entry(1, texture), entry(2, uniform)],
-    })
-}
-
-fn pipeline(
-    gpu: &Gpu,
-    module: &wgpu::ShaderModule,
-    layout: &wgpu::BindGroupLayout,
-    fragment: &str,
-    format: wgpu::TextureFormat,
-) -> wgpu::RenderPipeline {
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("accumulate"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(fragment),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vs_accumulate"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some(fragment),
-            compilation_options: Default::default(),
-            targets: &[Some(format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

@@ -2,6 +2,7 @@
 
 use super::image_plan::textures;
 use super::images::ModelImages;
+use crate::full_screen::{fragment_layout, image_entry, uniform_entry};
 use crate::gpu::Gpu;
 use crate::uniform::{MaterialUniform, TextureUse};
 use dragonfly_anim::data::{AlphaMode, Filter, Material, TextureRef, Wrap};
@@ -25,27 +26,11 @@ type Bound = (wgpu::TextureView, wgpu::Sampler);
 impl GpuMaterials {
     /// Creates the layout.
     pub(super) fn new(gpu: &Gpu) -> Self {
-        let fragment = wgpu::ShaderStages::FRAGMENT;
-        let entry =
-            |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: fragment, ty, count: None };
-        let uniform = wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: wgpu::BufferSize::new(size_of::<MaterialUniform>() as u64),
-        };
-        let texture = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
         let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-        let mut entries = vec![entry(0, uniform)];
-        entries.extend((1..=5).map(|binding| entry(binding, texture)));
-        entries.extend((6..=10).map(|binding| entry(binding, sampler)));
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("material"),
-            entries: &entries,
-        });
+        let mut bindings = vec![uniform_entry::<MaterialUniform>()];
+        bindings.extend([image_entry(true); 5]);
+        bindings.extend([sampler; 5]);
+        let layout = fragment_layout(&gpu.device, "material", &bindings);
         Self { layout }
     }
 

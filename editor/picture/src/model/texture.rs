@@ -1,5 +1,6 @@
 //! Images on the device, with all mip levels.
 
+use crate::full_screen::{draw_full_screen, fragment_layout, full_screen_pipeline, image_entry};
 use crate::gpu::Gpu;
 use crate::shaders;
 use crate::texture_memory::STAGING;
@@ -18,25 +19,8 @@ pub(super) struct TextureMaker {
 impl TextureMaker {
     /// Creates a maker on `gpu`.
     pub(super) fn new(gpu: &Gpu) -> Self {
-        let texture = wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: true },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        };
-        let sampler = wgpu::BindGroupLayoutEntry {
-            binding: 1,
-            ty: wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-            ..texture
-        };
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("mip"),
-            entries: &[texture, sampler],
-        });
+        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+        let layout = fragment_layout(&gpu.device, "mip", &[image_entry(true), sampler]);
         let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("mip"),
             mag_filter: wgpu::FilterMode::Linear,
@@ -113,8 +97,9 @@ impl TextureMaker {
         format: wgpu::TextureFormat,
         encoded: bool,
     ) {
-        let pipeline = self.pipelines[usize::from(encoded)]
-            .get_or_insert_with(|| pipeline(gpu, &self.layout, &self.module, format));
+        let pipeline = self.pipelines[usize::from(encoded)].get_or_insert_with(|| {
+            full_screen_pipeline(&gpu.device, &self.module, &self.layout, ["vs_mip", "fs_mip"], format)
+        });
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let view = |level| {
             texture.create_view(&wgpu::TextureViewDescriptor {
@@ -138,58 +123,8 @@ impl TextureMaker {
                     },
                 ],
             });
-            let target = view(level);
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("mip"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })],
-                ..Default::default()
-            });
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.draw(0..3, 0..1);
+            draw_full_screen(&mut encoder, &view(level), pipeline, &group);
         }
         gpu.queue.submit([encoder.finish()]);
     }
-}
-
-fn pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    module: &wgpu::ShaderModule,
-    format: wgpu::TextureFormat,
-) -> wgpu::RenderPipeline {
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("mip"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("mip"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vs_mip"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some("fs_mip"),
-            compilation_options: Default::default(),
-            targets: &[Some(format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

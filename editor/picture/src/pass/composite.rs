@@ -2,6 +2,7 @@
 
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
+use crate::full_screen::{fragment_layout, full_screen_pipeline, image_entry, uniform_entry};
 use crate::gpu::Gpu;
 use crate::shaders;
 
@@ -38,7 +39,8 @@ impl DeviceListener for CompositePass {
     }
 
     fn on_reset(&mut self, gpu: &Gpu) {
-        let layout = layout(gpu);
+        let layout =
+            fragment_layout(&gpu.device, "composite", &[image_entry(false), uniform_entry::<[f32; 4]>()]);
         let image = || CompositeImage {
             place: gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("place"),
@@ -109,56 +111,8 @@ impl Pass for CompositePass {
     }
 }
 
-fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    };
-    let texture = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: wgpu::BufferSize::new(16),
-    };
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("composite"),
-        entries: &[entry(0, texture), entry(1, uniform)],
-    })
-}
-
 fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> wgpu::RenderPipeline {
     let module = shaders::COMPOSITE.module(&gpu.device);
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("composite"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
     let encode = if gpu.window_format.is_srgb() { "fs_plain" } else { "fs_encode" };
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("composite"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vs_composite"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some(encode),
-            compilation_options: Default::default(),
-            targets: &[Some(gpu.window_format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    full_screen_pipeline(&gpu.device, &module, layout, ["vs_composite", encode], gpu.window_format)
 }

@@ -2,6 +2,7 @@
 
 use super::SceneShadows;
 use super::frame::{CASCADES, SPOT_SHADOWS, SPOT_SIDE, ShadowMap};
+use crate::full_screen::{fragment_layout, uniform_entry};
 use crate::gpu::{DEPTH_FORMAT, Gpu};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
@@ -182,25 +183,11 @@ fn uniform(shadows: &SceneShadows) -> ShadowUniform {
 }
 
 fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    };
-    let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: wgpu::BufferSize::new(size_of::<ShadowUniform>() as u64),
-    };
     let map = wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Depth,
         view_dimension: wgpu::TextureViewDimension::D2Array,
         multisampled: false,
     };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("shadows"),
-        entries: &[entry(0, uniform), entry(1, map), entry(2, map), entry(3, sampler)],
-    })
+    fragment_layout(&gpu.device, "shadows", &[uniform_entry::<ShadowUniform>(), map, map, sampler])
 }

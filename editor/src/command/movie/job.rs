@@ -120,8 +120,6 @@ fn what(arguments: &MovieArguments) -> Vec<String> {
 fn how(arguments: &MovieArguments) -> Vec<String> {
     let mut list = arguments.view.to_arguments();
     let options = [
-        ("--samples", Some(arguments.view.samples.to_string()).filter(|_| arguments.view.samples > 1)),
-        ("--shutter", Some(arguments.view.shutter.to_string()).filter(|_| arguments.view.samples > 1)),
         ("--format", arguments.format.clone()),
         ("--quality", Some(arguments.quality.to_string()).filter(|_| arguments.quality != 24)),
     ];
