@@ -70,11 +70,13 @@ fn read_sounds(
             return Err(MovieRenderError::Cancelled);
         }
         let samples = samples.and_then(|samples| {
-            bytes += samples.bytes();
-            let fits = bytes <= MOST_SOUND_BYTES;
-            fits.then_some(samples).ok_or_else(|| {
-                format!("{}: the sounds are longer than {} MB", cue.source, MOST_SOUND_BYTES >> 20)
-            })
+            let with = bytes + samples.bytes();
+            if with > MOST_SOUND_BYTES {
+                let most = MOST_SOUND_BYTES >> 20;
+                return Err(format!("{}: the sounds are longer than {most} MB", cue.source));
+            }
+            bytes = with;
+            Ok(samples)
         });
         if let Err(reason) = &samples {
             warn(&format!("a sound is left out: {reason}"));
