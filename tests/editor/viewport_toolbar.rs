@@ -104,6 +104,20 @@ fn every_button_is_in_the_toolbar_or_in_its_menu_and_the_name_of_the_camera_is_f
 }
 
 #[test]
+fn the_menu_has_its_entries_in_the_order_of_the_toolbar_from_the_left() {
+    let mut window = window(300.0, true);
+    let more = window.get_by_label(MORE).rect();
+    click(&mut window, more);
+    let top = |id: Id| {
+        let found = window.query_all_by_label_contains(commands::get(id).title).map(|node| node.rect().top());
+        found.filter(|top| *top > more.bottom()).next().expect("an entry")
+    };
+    let tops =
+        [Id::ShadeMaterial, Id::ShadeClay, Id::ShadeUnlit, Id::BonesOctahedra, Id::BonesSticks].map(top);
+    assert!(tops.is_sorted_by(|one, other| one < other), "{tops:?}");
+}
+
+#[test]
 fn an_entry_of_the_menu_does_what_its_button_does() {
     let mut window = window(300.0, true);
     let more = window.get_by_label(MORE).rect();

@@ -149,12 +149,12 @@ fn fitting(entries: &[ToolbarEntry], room: f32) -> usize {
     (0..entries.len()).rev().find(fits).unwrap_or(0)
 }
 
-/// Draws the button with the menu of the entries that do not fit.
+/// Draws the button with the menu of the entries that do not fit, from the top down in the order of the toolbar from the left.
 fn rest(ui: &mut Ui, hidden: &[ToolbarEntry], context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let response = icon_button(ui, Icon::More, MORE, false).on_hover_text(MORE);
     egui::Popup::menu(&response).show(|ui| {
         ui.set_min_width(230.0);
-        for (index, entry) in hidden.iter().enumerate() {
+        for (index, entry) in hidden.iter().enumerate().rev() {
             match *entry {
                 ToolbarEntry::Views => submenu(ui, "Views", |ui| views(ui, context, requests)),
                 ToolbarEntry::Cameras => submenu(ui, "Look through", |ui| cameras(ui, context, requests)),
