@@ -4,12 +4,14 @@ use crate::scene_bench::{FOXES, new_lines, scene, shared, text};
 use crate::workbench::Window;
 use dragonfly::panels::commands::{self, Id};
 use dragonfly::panels::keys::TimeWindow;
+use dragonfly::panels::prompts::Overlay;
 use dragonfly::panels::scene::SceneRequest;
-use dragonfly::panels::{Effect, Request, State};
+use dragonfly::panels::{Effect, FileChoice, Request, State};
 use dragonfly_document::View;
 use dragonfly_document::bones::Choice;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
+use std::path::Path;
 use std::time::Instant;
 
 fn execute(window: &mut Window, request: Request) {
@@ -34,6 +36,21 @@ fn selected(window: &Window) -> Vec<String> {
 
 fn is_hidden(window: &Window, id: &str) -> bool {
     window.state().state.read().scene_editing.is_hidden(id)
+}
+
+#[test]
+fn the_path_of_a_new_part_of_the_scene_begins_with_the_folder_of_the_scene() {
+    for choice in [FileChoice::Role, FileChoice::Prop, FileChoice::SceneSound] {
+        let mut window = scene(FOXES).window();
+        window.state_mut().state.show_overlay(Some(Overlay::FilePath(choice)));
+        window.run_steps(4);
+        assert!(window.get_by_label("Choose").accesskit_node().is_disabled(), "{choice:?}: a folder is none");
+        window.event(egui::Event::Text("other.glb".to_owned()));
+        window.run_steps(2);
+        let folder = Path::new("/scenes").join("");
+        let path = window.get_by_label("Path").accesskit_node().value().unwrap_or_default();
+        assert_eq!(path, format!("{}other.glb", folder.display()), "{choice:?}");
+    }
 }
 
 #[test]

@@ -10,11 +10,11 @@ use super::widgets;
 use dragonfly_anim::format::dfm::DFM;
 use dragonfly_anim::format::gltf::{GLB, GLTF, VRMA};
 use dragonfly_anim::format::{Conventions, Handedness, UpAxis};
-use dragonfly_document::{DocumentMessage, LoadedModel, Source, View};
+use dragonfly_document::{DocumentMessage, LoadedModel, Source};
 use egui::{
     Align, Button, ComboBox, DragValue, Grid, Key, Layout, Margin, RichText, TextEdit, TextStyle, Ui,
 };
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Width of the dialog, points.
 const WIDTH: f32 = 520.0;
@@ -52,7 +52,7 @@ impl OpenPathDialog {
         requests: &mut Vec<Request>,
     ) {
         if fresh {
-            self.begin(used, context.view);
+            self.begin(used, context);
         }
         let [title, action] = match used {
             PathUse::Open => ["Open by path", "Open"],
@@ -72,7 +72,8 @@ impl OpenPathDialog {
                 "/home/me/models/fox.glb"
             }
         };
-        let entered = self.field(ui, [name, hint], fresh);
+        let is_begun = is_of_scene(used) && is_folder(&self.path);
+        let entered = self.field(ui, [name, hint], fresh, is_begun);
         if matches!(used, PathUse::Open | PathUse::Again) {
             ui.add_space(GRID);
             let view = context.view.filter(|_| used == PathUse::Again);
@@ -80,7 +81,7 @@ impl OpenPathDialog {
         }
         ui.add_space(GRID);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let able = !self.path.trim().is_empty();
+            let able = !self.path.trim().is_empty() && !(is_of_scene(used) && is_folder(&self.path));
             let open = ui.add_enabled(able, Button::new(action)).clicked();
             if ui.button("Cancel").clicked() {
                 requests.push(Request::Overlay(None));
@@ -92,13 +93,20 @@ impl OpenPathDialog {
         });
     }
 
-    /// Starts with the open file and the options with which it was read, where its import options are shown.
-    fn begin(&mut self, used: PathUse, view: Option<&View>) {
+    /// Starts with the open file and the options with which it was read, where its import options are shown, and with the folder of the scene for a
+    /// new part of it.
+    fn begin(&mut self, used: PathUse, context: &PanelContext<'_>) {
         if used != PathUse::Again {
             self.chosen = Conventions::default();
+            let is_new = self.path.trim().is_empty() || is_folder(&self.path);
+            let scene = context.view.filter(|view| view.scene.is_some() && is_new && is_of_scene(used));
+            if let Some(folder) = scene.and_then(|view| view.file.path.as_deref()).and_then(Path::parent) {
+                // With the separator at its end, after which a name is typed.
+                self.path = folder.join("").display().to_string();
+            }
             return;
         }
-        if let Some(view) = view {
+        if let Some(view) = context.view {
             let path = view.file.path.as_ref().or(view.loaded.path.as_ref());
             self.path = path.map_or_else(String::new, |path| path.display().to_string());
             self.chosen = view.loaded.conversion.chosen();
@@ -116,15 +124,17 @@ impl OpenPathDialog {
         }
     }
 
-    /// Draws the field. Returns whether the user pressed Enter in it.
-    fn field(&mut self, ui: &mut Ui, [name, hint]: [&str; 2], fresh: bool) -> bool {
+    /// Draws the field, in which the name is still to be typed if `is_begun`. Returns whether the user pressed Enter in it.
+    fn field(&mut self, ui: &mut Ui, [name, hint]: [&str; 2], fresh: bool, is_begun: bool) -> bool {
         let field = TextEdit::singleline(&mut self.path).hint_text(hint).desired_width(f32::INFINITY);
         let response = ui.add(field.font(TextStyle::Monospace).margin(Margin::symmetric(10, 7)));
         let response = response.accessible_name(name);
         if fresh {
             response.request_focus();
-            // The last path is selected, so that it can be corrected or typed over.
-            widgets::select_all(ui.ctx(), response.id, &self.path);
+            // The last path is selected, so that it can be corrected or typed over. What is typed comes after a folder.
+            let end = self.path.chars().count();
+            let start = if is_begun { end } else { 0 };
+            widgets::select_characters(ui.ctx(), response.id, start..end);
         }
         response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
     }
@@ -178,6 +188,16 @@ impl OpenPathDialog {
             ui.add(field).on_hover_text("Frames or ticks per second of the file");
         }
     }
+}
+
+/// Returns whether a path is that of a new part of the scene.
+fn is_of_scene(used: PathUse) -> bool {
+    matches!(used, PathUse::Choice(FileChoice::Role | FileChoice::Prop | FileChoice::SceneSound))
+}
+
+/// Returns whether a typed path ends after a folder.
+fn is_folder(path: &str) -> bool {
+    path.trim().ends_with(std::path::is_separator)
 }
 
 /// Draws a list with the entry “As in the file”, and these.
