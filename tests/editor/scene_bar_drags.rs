@@ -6,7 +6,7 @@ use crate::workbench::{Window, move_to, press, release};
 use dragonfly::panels::Request;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly_document::bones::Choice;
-use egui::{Modifiers, pos2};
+use egui::{Modifiers, Shape, pos2};
 
 const LOOKS: usize = 5;
 const RUN: usize = 6;
@@ -47,6 +47,34 @@ fn an_end_whose_followers_move_along_is_trimmed_frame_by_frame() {
     }
     release(&mut window, pos2(from.x + (frame * 9.0) as f32, from.y));
     assert_eq!(ends, [52, 53, 54, 55, 56, 57]);
+}
+
+/// Returns whether a text is drawn that contains `part`.
+fn draws(window: &Window, part: &str) -> bool {
+    let mut shapes = window.output().shapes.iter().map(|clipped| &clipped.shape);
+    shapes.any(|shape| matches!(shape, Shape::Text(text) if text.galley.text().contains(part)))
+}
+
+#[test]
+fn a_clip_that_is_dragged_past_the_next_one_of_its_sequence_tells_its_new_place_and_time_at_the_pointer() {
+    let apart = FOXES.replace("begin=\"-0.5\" fade-in=\"0.5\" repeat=\"3\"", "repeat=\"3\"");
+    let mut window = scene(&apart).window();
+    let lanes = Lanes::of(&window);
+    let from = lanes.bar(&window, LOOKS).center();
+    let after = |seconds: f64| pos2(from.x + (seconds * lanes.scale.per_second()) as f32, from.y);
+    press(&mut window, from);
+    move_to(&mut window, after(0.25), Modifiers::NONE);
+    move_to(&mut window, after(0.5), Modifiers::NONE);
+    assert!(draws(&window, "begins at 0.500 s") && !draws(&window, "in sequence"));
+    move_to(&mut window, after(3.25), Modifiers::NONE);
+    // It is the second one of the two now.
+    let [begin, _] = times(&window, RUN);
+    assert!(
+        begin > 3.0 && draws(&window, &format!("becomes 2nd in sequence, begins at {begin:.3} s")),
+        "{begin}"
+    );
+    release(&mut window, after(3.25));
+    assert_eq!(times(&window, RUN)[0], begin);
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::actors::{assets, at, bits, fox, planned, seconds};
 use super::gestures::{called, changed, gesture, moved};
 use super::read;
 use dragonfly_anim::stage::gesture::{
-    Followers, GestureRefusal, SequenceOrder, add_clip, delete_clip, duplicate_clip, move_clip, trim_end,
-    trim_start,
+    Followers, GestureRefusal, SequenceOrder, add_clip, delete_clip, duplicate_clip, move_clip,
+    sequence_move, trim_end, trim_start,
 };
 
 /// Returns begin and end of the action called `id`, seconds.
@@ -35,6 +35,23 @@ fn the_end_of_a_moved_clip_moves_with_its_begin() {
         });
         let new = new.expect("a text");
         assert_eq!((times(&new, "x"), times(&new, "y")[0]), ([0.5, 2.5], begin), "{new}");
+    }
+}
+
+#[test]
+fn a_moved_clip_names_its_new_place_in_the_sequence_and_its_new_begin() {
+    let seq = "<seq>\n<play id=\"a\" who=\"anna\" take=\"Survey\"/>\n<play id=\"b\" who=\"anna\" take=\"Walk\"/>\n<play id=\"c\" who=\"anna\" take=\"Run\"/>\n</seq>";
+    for (id, to, number) in [("c", 0.0, Some(1)), ("a", 9.0, Some(3)), ("a", 0.1, None)] {
+        let mut told = None;
+        let (_, new) = gesture(seq, |scene| {
+            let action = called(scene, id);
+            told = sequence_move(scene, action, seconds(to));
+            move_clip(scene, action, seconds(to), SequenceOrder::Change, Followers::Follow)
+        });
+        let new = new.expect("a text");
+        assert_eq!(told.map(|told| told.number), number, "{id} to {to}");
+        let begin = told.map_or(to, |told| told.begin.seconds());
+        assert!((begin - times(&new, id)[0]).abs() < 1e-6, "{begin}: {new}");
     }
 }
 

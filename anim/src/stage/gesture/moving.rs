@@ -3,8 +3,9 @@
 use super::begin::{ends_with_another, following_end, is_usual, kept_follower, moved_moment};
 use super::draft::{AttributeChange, ScriptDraft, keeps_prev};
 use super::insert::place_index;
-use super::mixes::{ActionOrigins, mixed};
+use super::mixes::{ActionOrigins, lengths_after, mixed};
 use super::scene::{Followers, GestureRefusal, GestureScene};
+use crate::stage::schedule::resolve;
 use crate::stage::script::ActionMoment;
 use crate::stage::splice::{AttachedComments, ElementPlace, move_to};
 use crate::stage::time::StageTime;
@@ -16,6 +17,15 @@ pub enum SequenceOrder {
     Change,
     /// It stays in its place of the text, with an earlier or later `begin`.
     Keep,
+}
+
+/// A place that an action gets among its neighbors in a `seq`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SequenceMove {
+    /// Its number there, from 1 on.
+    pub number: usize,
+    /// The time at which it begins there.
+    pub begin: StageTime,
 }
 
 /// Moves an action so that it begins at `to`; at zero for an earlier time. Where a clip overlaps the one before it after that, it mixes with it
@@ -33,35 +43,12 @@ pub fn move_clip(
     followers: Followers,
 ) -> Result<String, GestureRefusal> {
     scene.element(action)?;
-    let (own, times) = (&scene.script.actions()[action], scene.times(action));
+    let times = scene.times(action);
     let draft = ScriptDraft::of(scene.script);
-    // Also for a time before the start, which brings a long clip before a short one.
     if order == SequenceOrder::Change
-        && is_usual(scene, action)
-        && (own.passive || !ends_with_another(scene, action))
-        && let Some(place) = new_place(scene, action, to)
+        && let Some(place) = changed_place(scene, action, to)
     {
-        let mut changes: Vec<AttributeChange<'_>> = vec![(own.element, "begin", None)];
-        if let Some(ActionMoment::Offset(begin)) = own.begin {
-            changes.extend(following_end(scene, action, -begin));
-        }
-        // Three actions have another one before them. What was first had none, so that it refers to none.
-        let behind = match place {
-            ElementPlace::First(_) => None,
-            ElementPlace::After(near) => {
-                let before = scene.script.actions().iter().position(|other| other.element == near);
-                before.and_then(|before| scene.script.next_sibling(before))
-            }
-        };
-        keeps_prev(
-            scene.script,
-            [Some(action), scene.script.next_sibling(action), behind].into_iter().flatten(),
-        )?;
-        let draft =
-            draft.with(&changes)?.then(|tree| move_to(tree, own.element, place, AttachedComments::Follow))?;
-        let origins =
-            ActionOrigins::moved(scene, scene.script.branch(action), new_index(scene, action, place));
-        return mixed(scene, draft, &origins)?.finish();
+        return reordered(scene, action, place)?.0.finish();
     }
     let by = to.max(StageTime::ZERO) - times.begin;
     let mut changes: Vec<AttributeChange<'_>> = Vec::new();
@@ -76,6 +63,57 @@ pub fn move_clip(
     }
     let draft = mixed(scene, draft.with(&changes)?, &ActionOrigins::same(scene))?;
     draft.finish_with(&scene.lengths(), |changed| scene.keeps_length(action, changed, action))
+}
+
+/// Returns the place that an action gets among its neighbors in a `seq` where [`move_clip`] moves it to `to` with [`SequenceOrder::Change`]; `None`
+/// where it keeps its own, or the move is refused.
+pub fn sequence_move(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Option<SequenceMove> {
+    scene.element(action).ok()?;
+    let place = changed_place(scene, action, to)?;
+    let (draft, origins) = reordered(scene, action, place).ok()?;
+    let script = draft.read().ok()??;
+    let origins = origins.in_script(scene, &script);
+    let new = origins.iter().position(|origin| *origin == Some(action))?;
+    let schedule = resolve(&script, &lengths_after(scene, &script, &origins)).ok()?;
+    let begin = schedule.times().get(new)?.begin;
+    Some(SequenceMove { number: script.actions().get(new)?.position + 1, begin })
+}
+
+/// Returns the other place in a `seq` to which an action that begins at `to` goes; `None` where it stays in its own. A time before the start brings a
+/// long clip before a short one, too.
+fn changed_place(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Option<ElementPlace> {
+    let is_free = scene.script.actions()[action].passive || !ends_with_another(scene, action);
+    if is_usual(scene, action) && is_free { new_place(scene, action, to) } else { None }
+}
+
+/// Returns the text in which an action is at another place of a `seq`, and what its actions were before.
+fn reordered<'a>(
+    scene: &GestureScene<'a>,
+    action: usize,
+    place: ElementPlace,
+) -> Result<(ScriptDraft<'a>, ActionOrigins), GestureRefusal> {
+    let own = &scene.script.actions()[action];
+    let mut changes: Vec<AttributeChange<'_>> = vec![(own.element, "begin", None)];
+    if let Some(ActionMoment::Offset(begin)) = own.begin {
+        changes.extend(following_end(scene, action, -begin));
+    }
+    // Three actions have another one before them. What was first had none, so that it refers to none.
+    let behind = match place {
+        ElementPlace::First(_) => None,
+        ElementPlace::After(near) => {
+            let before = scene.script.actions().iter().position(|other| other.element == near);
+            before.and_then(|before| scene.script.next_sibling(before))
+        }
+    };
+    keeps_prev(
+        scene.script,
+        [Some(action), scene.script.next_sibling(action), behind].into_iter().flatten(),
+    )?;
+    let draft = ScriptDraft::of(scene.script)
+        .with(&changes)?
+        .then(|tree| move_to(tree, own.element, place, AttachedComments::Follow))?;
+    let origins = ActionOrigins::moved(scene, scene.script.branch(action), new_index(scene, action, place));
+    Ok((mixed(scene, draft, &origins)?, origins))
 }
 
 /// Returns the position among the actions that an action has after it went to a place.

@@ -7,8 +7,8 @@ use crate::panels::drag::{PointerInput, readout};
 use crate::panels::request::Request;
 use crate::panels::scene::{ChangedThings, SceneBase, SceneEditing, SceneRequest, ScriptChange, move_label};
 use dragonfly_anim::stage::gesture::{
-    FadeEnd, Followers, GestureRefusal, MovedPart, MovedToLane, SequenceOrder, in_this_text, move_clips,
-    move_clips_to_lane, moved_along, set_fade, stretch_to, trim_end, trim_start,
+    FadeEnd, Followers, GestureRefusal, MovedPart, MovedToLane, SequenceMove, SequenceOrder, in_this_text,
+    move_clips, move_clips_to_lane, moved_along, sequence_move, set_fade, stretch_to, trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane, SceneLanes};
 use dragonfly_anim::stage::table::element;
@@ -44,6 +44,8 @@ pub(super) struct HeldBar {
     asked: Option<AskedEdge>,
     /// Why it could not be brought there, or not with all actions that move along.
     refused: Option<GestureRefusal>,
+    /// The place that it has there among the actions of its sequence, if that is another one than before.
+    becomes: Option<SequenceMove>,
 }
 
 /// A place to which an edge is brought.
@@ -97,6 +99,7 @@ pub(super) fn begin(
         is_sent: false,
         asked: None,
         refused: None,
+        becomes: None,
     }))
 }
 
@@ -144,6 +147,7 @@ impl HeldBar {
         // A movement within the same frame changes nothing.
         if self.asked.as_ref() != Some(&asked) {
             requests.extend(self.bring_to(&asked, context.scene_editing));
+            self.becomes = self.other_place(&asked);
             self.asked = Some(asked);
         }
         let pointer = egui::pos2(at.x, at.y);
@@ -241,10 +245,26 @@ impl HeldBar {
         (label, text.map(|text| MovedToLane { text, left: None }))
     }
 
+    /// Returns the other place in its sequence to which the bar goes; `None` where it keeps its own.
+    fn other_place(&self, asked: &AskedEdge) -> Option<SequenceMove> {
+        let may = self.part == SceneBarPart::Body && !asked.alt && asked.onto.is_none();
+        let is_alone = self.actions == [self.bar.action];
+        if !(may && is_alone) {
+            return None;
+        }
+        sequence_move(&self.base.scene(), self.bar.action, asked.time)
+    }
+
     /// Returns the numbers of the drag.
     fn amounts(&self, edge: StageTime, rate: StageRate) -> String {
         let (seconds, frame) = (edge.seconds(), rate.nearest_frame(edge));
         let what = match self.part {
+            SceneBarPart::Body if let Some(SequenceMove { number, begin }) = self.becomes => format!(
+                "becomes {} in sequence, begins at {:.3} s, frame {}",
+                ordinal(number),
+                begin.seconds(),
+                rate.nearest_frame(begin)
+            ),
             SceneBarPart::Body => format!(
                 "begins at {seconds:.3} s, frame {frame}, {:+.3} s",
                 (edge - self.bar.begin).seconds()
@@ -265,6 +285,18 @@ impl HeldBar {
         };
         format!("{} · {}: {what}", self.name, self.bar.label)
     }
+}
+
+/// Returns a number as a place in an order: 1st, 2nd, 11th.
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1 | 2 | 3, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
 }
 
 /// Returns the nearest time that a script writes with five decimals.
