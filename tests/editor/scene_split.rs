@@ -58,6 +58,19 @@ fn a_key_splits_the_selected_clip_at_the_playhead_in_one_step_and_the_second_hal
 }
 
 #[test]
+fn undo_of_a_split_selects_the_clip_that_it_brings_back() {
+    let mut window = window(&[LOOKS], 1.0);
+    for _ in 0..2 {
+        window.key_press(Key::Y);
+        window.run_steps(3);
+        assert_eq!(selected(&window), [LOOKS + 1]);
+        window.state_mut().change(Change::Undo);
+        window.run_steps(3);
+        assert_eq!((text(&window).as_str(), selected(&window)), (FOXES, vec![LOOKS]));
+    }
+}
+
+#[test]
 fn the_menu_of_a_bar_splits_it_and_several_are_split_at_once() {
     let mut window = window(&[LOOK, TITLE], 4.5);
     let at = Lanes::of(&window).bar(&window, TITLE).center();

@@ -3,7 +3,7 @@
 use super::scene_clips::unlocked_actions;
 use super::scene_text::step;
 use crate::panels::request::Effect;
-use crate::panels::scene::ChangedThings;
+use crate::panels::scene::{ChangedThings, SplitActions};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::split_clips;
@@ -18,11 +18,11 @@ pub(in crate::panels) fn split(workspace: &mut Workspace) -> Option<Effect> {
         let clips = split_clips(&base.scene(), &actions, at)?;
         let things = ChangedThings::Actions(&actions);
         let change = base.step(clips.text.clone(), ScriptLabel::Split, things);
-        split = Some(clips);
+        split = Some((clips, SplitActions::new(Arc::clone(base.text()), actions.clone())));
         Ok(change)
     });
-    let clips = split.filter(|_| effect.is_some())?;
-    workspace.scene.await_halves(Arc::from(clips.text), clips.halves);
+    let (clips, whole) = split.filter(|_| effect.is_some())?;
+    workspace.scene.await_halves(Arc::from(clips.text), clips.halves, whole);
     if let Some(left) = clips.left {
         workspace.say(MessageSeverity::Info, left.to_string());
     }

@@ -3,6 +3,7 @@
 use super::action_selection::ActionSelection;
 use super::follow::new_actions;
 use super::hide_and_lock::{HideAndLock, SceneMarks};
+use super::last_split::{LastSplit, SplitActions};
 use super::line_editing::{LineEditing, MarkedThings};
 use super::newest_text::NewestText;
 use super::renamed_things::RenamedThings;
@@ -34,6 +35,8 @@ pub struct SceneEditing {
     awaited: Vec<Box<str>>,
     /// The text whose new actions are selected as soon as it is shown, or these actions of it.
     awaited_actions: Option<(Arc<str>, Option<Vec<usize>>)>,
+    /// The last split: what was selected in the text before it, and the text after it.
+    last_split: Option<LastSplit>,
     ripple: bool,
     /// The part of time that the timeline shows; `None` for all.
     window: Option<TimeWindow>,
@@ -60,6 +63,7 @@ impl Default for SceneEditing {
             renaming: None,
             awaited: Vec::new(),
             awaited_actions: None,
+            last_split: None,
             ripple: true,
             window: None,
             shown: None,
@@ -316,8 +320,14 @@ impl SceneEditing {
         self.awaited_actions = Some((text, None));
     }
 
-    /// Selects these actions of this text, the second halves of others, as soon as it is shown.
-    pub(in crate::panels) fn await_halves(&mut self, text: Arc<str>, halves: Vec<usize>) {
+    /// Selects these actions of this text, the second halves of others, as soon as it is shown. What was split is selected again after an undo.
+    pub(in crate::panels) fn await_halves(
+        &mut self,
+        text: Arc<str>,
+        halves: Vec<usize>,
+        split: SplitActions,
+    ) {
+        self.last_split = Some(LastSplit::new(split, Arc::clone(&text)));
         self.awaited_actions = Some((text, Some(halves)));
     }
 
@@ -368,6 +378,8 @@ impl SceneEditing {
             let awaited = self.awaited_actions.take_if(|(text, _)| **text == **script.tree().text());
             if let Some((_, actions)) = awaited {
                 added = actions.unwrap_or_else(|| new_actions(old, &script));
+            } else if let Some(split) = self.last_split.as_ref().and_then(|last| last.undone(old, &script)) {
+                added = split.to_vec();
             }
             self.actions.follow(old, &script);
             renamed = RenamedThings::between(old, &script);
