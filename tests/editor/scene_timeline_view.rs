@@ -3,10 +3,12 @@
 use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::scene_script::{put_cursor, type_text};
 use crate::scene_timeline::{Lanes, drag};
-use crate::workbench::Window;
+use crate::workbench::{Window, press, release};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
-use egui::{Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, Vec2, pos2};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{Edit, EditScript};
+use egui::{Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, Shape, Vec2, pos2};
 use egui_kittest::kittest::Queryable;
 
 const RUN: usize = 6;
@@ -66,6 +68,34 @@ fn turn_wheel(window: &mut Window, at: Pos2, delta: Vec2) {
         modifiers: Modifiers::NONE,
     });
     window.run_steps(20);
+}
+
+#[test]
+fn the_zoom_stays_while_a_drag_makes_the_scene_longer_and_fits_the_whole_scene_after_it() {
+    let mut window = window();
+    let canvas = Lanes::of(&window).canvas;
+    let title = |window: &Window| {
+        let mut shapes = window.output().shapes.iter().map(|clipped| &clipped.shape);
+        let found = shapes.find_map(|shape| match shape {
+            Shape::Text(text) if text.galley.text() == "The End" && canvas.contains(text.pos) => {
+                Some(text.pos.x)
+            }
+            _ => None,
+        });
+        found.expect("the bar of the title")
+    };
+    let before = title(&window);
+    // Something elsewhere is dragged, in the viewport.
+    let at = window.state().state.read().viewport.center();
+    press(&mut window, at);
+    let longer = FOXES.replace("begin=\"4\" dur=\"1\"", "begin=\"4\" dur=\"9\"");
+    let edit = EditScript::between(FOXES, &longer, None).expect("another text");
+    window.state_mut().change(Change::Edit(Edit::EditScript(edit), None));
+    window.run_steps(4);
+    assert!((title(&window) - before).abs() < 0.5, "{before} {}", title(&window));
+    release(&mut window, at);
+    window.run_steps(2);
+    assert!(title(&window) < before - 20.0, "{before} {}", title(&window));
 }
 
 #[test]

@@ -153,6 +153,11 @@ impl SceneEditing {
         self.window.map_or(whole, |window| window.within(end))
     }
 
+    /// Returns whether the timeline shows the whole scene, however long it becomes.
+    pub(in crate::panels) fn shows_all(&self) -> bool {
+        self.window.is_none()
+    }
+
     pub(in crate::panels) fn set_window(&mut self, window: Option<TimeWindow>) {
         self.window = window.map(TimeWindow::sanitized);
     }

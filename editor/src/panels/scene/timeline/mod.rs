@@ -127,7 +127,9 @@ impl SceneTimeline {
         let lanes = Arc::clone(context.scene_editing.lanes());
         let layout = self.layout_of(&lanes);
         let window = context.scene_editing.window();
-        let window = match self.drag.is_busy() {
+        // Also while something else is dragged that changes the length of the scene: a way in the viewport, a number.
+        let is_elsewhere = ui.input(|input| input.pointer.any_down()) && context.scene_editing.shows_all();
+        let window = match self.drag.is_busy() || is_elsewhere {
             true => *self.held.get_or_insert(window),
             false => {
                 self.held = None;
