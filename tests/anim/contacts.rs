@@ -169,6 +169,33 @@ fn a_foot_keeps_its_direction_while_it_is_locked() {
 }
 
 #[test]
+fn limbs_that_share_bones_are_locked_alike_whatever_the_order_of_the_bones() {
+    let place = |name| Vec3::new(if name == "a" { 0.1 } else { -0.2 }, -0.44, -0.05);
+    let rotations = |[first, second]: [&str; 2]| {
+        let skeleton = Skeleton {
+            bones: vec![
+                bone("Thigh", None, Vec3::new(0.0, 0.88, 0.0)),
+                bone("Shin", Some(0), Vec3::new(0.0, -0.44, 0.05)),
+                bone(first, Some(1), place(first)),
+                bone(second, Some(1), place(second)),
+            ],
+        };
+        let span = |name| if name == "a" { (0.1, 0.2) } else { (0.15, 0.4) };
+        let contact = |(index, name)| Contact { bone: index, from: span(name).0, to: span(name).1 };
+        let contacts = [(2, first), (3, second)].map(contact);
+        let take = moved(20, |frame| Vec3::Z * 0.01 * frame as f32);
+        let settings = LockSettings { rate: RATE, ease: 2 };
+        let locked = lock_contacts(&take, &skeleton, &contacts, &settings).expect("locked");
+        let rotation = |name: &str| {
+            let index = skeleton.find(name).expect("a bone");
+            locked.take.tracks[index as usize].rotation.clone()
+        };
+        ["Thigh", "Shin", "a", "b"].map(rotation)
+    };
+    assert_eq!(rotations(["a", "b"]), rotations(["b", "a"]));
+}
+
+#[test]
 fn spline_keys_of_a_leg_are_locked_like_linear_ones() {
     let (skeleton, mut take) = (leg(), step());
     let zero = Quat::from_array([0.0; 4]);

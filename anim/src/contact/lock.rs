@@ -77,8 +77,9 @@ const MOVED: f32 = 1e-5;
 /// Largest number of frames in the contacts of one bone.
 const MOST_FRAMES: f32 = 1e6;
 
-/// Holds each bone of `contacts` at its mean position in the contact. Bones that are nested in each other are locked in bone
-/// order; locking both an ankle and its toes moves the ankle again.
+/// Holds each bone of `contacts` at its mean position in the contact. Bones are locked from the root down, those with the same
+/// number of bones above them by name, whatever the order of bones in the file; locking both an ankle and its toes moves the ankle
+/// again.
 ///
 /// A rotation channel of a limb that is not linear is first replaced by linear keys at every frame of the take.
 ///
@@ -155,7 +156,8 @@ fn lock(
 ) -> Result<LockedTake, LockError> {
     check_rate(take, settings)?;
     let mut bones: Vec<BoneIndex> = contacts.iter().map(|contact| contact.bone).collect();
-    bones.sort_unstable();
+    // Where limbs share bones, the order of locking matters, and the order of the bones in the file must not.
+    bones.sort_by_cached_key(|&bone| (skeleton.ancestors(bone).count(), name_of(skeleton, bone), bone));
     bones.dedup();
     let mut locked = LockedTake { take: take.clone(), farthest: 0.0, bones: Vec::new() };
     for bone in bones {
@@ -167,6 +169,11 @@ fn lock(
     locked.bones.sort_unstable();
     locked.bones.dedup();
     Ok(locked)
+}
+
+/// Returns the name of a bone, none for one that does not exist.
+fn name_of(skeleton: &Skeleton, bone: BoneIndex) -> &str {
+    skeleton.bones.get(bone as usize).map_or("", |bone| bone.name.as_str())
 }
 
 /// Returns the contacts within the take, ascending; those that overlap as one.
