@@ -100,7 +100,7 @@ fn the_lit_sides_of_a_box_have_no_shadow_of_their_own() {
     let shadow = shadow_along(&mut studio, SUN, camera, 0.05);
     let unit = camera.units_per_pixel(SIZE[1] as f32);
     let pixel = |x: f32| ((x - camera.target.x) / unit + SIZE[0] as f32 / 2.0) as usize;
-    // Which part of the pixel of the edge is ground, and how near to the box, differs by device.
+    // Devices differ in the part of the pixel of the edge that is ground.
     let edge = pixel(-HALF);
     let lit = (pixel(-HALF - 0.1)..pixel(HALF - 0.02)).filter(|&x| x != edge);
     let darkened: Vec<_> = lit.filter(|&x| shadow[x] >= 0.05).map(|x| (x, shadow[x])).collect();

@@ -156,7 +156,7 @@ fn lock(
 ) -> Result<LockedTake, LockError> {
     check_rate(take, settings)?;
     let mut bones: Vec<BoneIndex> = contacts.iter().map(|contact| contact.bone).collect();
-    // Where limbs share bones, the order of locking matters, and the order of the bones in the file must not.
+    // The order of locking matters for limbs that share bones; the order of the bones in the file must not.
     bones.sort_by_cached_key(|&bone| (skeleton.ancestors(bone).count(), name_of(skeleton, bone), bone));
     bones.dedup();
     let mut locked = LockedTake { take: take.clone(), farthest: 0.0, bones: Vec::new() };
