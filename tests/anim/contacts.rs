@@ -170,7 +170,7 @@ fn a_foot_keeps_its_direction_while_it_is_locked() {
 
 #[test]
 fn limbs_that_share_bones_are_locked_alike_whatever_the_order_of_the_bones() {
-    let place = |name| Vec3::new(if name == "a" { 0.1 } else { -0.2 }, -0.44, -0.05);
+    let place = |name: &str| Vec3::new(if name == "a" { 0.1 } else { -0.2 }, -0.44, -0.05);
     let rotations = |[first, second]: [&str; 2]| {
         let skeleton = Skeleton {
             bones: vec![
@@ -180,8 +180,9 @@ fn limbs_that_share_bones_are_locked_alike_whatever_the_order_of_the_bones() {
                 bone(second, Some(1), place(second)),
             ],
         };
-        let span = |name| if name == "a" { (0.1, 0.2) } else { (0.15, 0.4) };
-        let contact = |(index, name)| Contact { bone: index, from: span(name).0, to: span(name).1 };
+        let span = |name: &str| if name == "a" { (0.1, 0.2) } else { (0.15, 0.4) };
+        let contact =
+            |(index, name): (u32, &str)| Contact { bone: index, from: span(name).0, to: span(name).1 };
         let contacts = [(2, first), (3, second)].map(contact);
         let take = moved(20, |frame| Vec3::Z * 0.01 * frame as f32);
         let settings = LockSettings { rate: RATE, ease: 2 };

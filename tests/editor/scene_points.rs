@@ -147,6 +147,43 @@ fn a_line_that_is_a_path_has_points_and_its_curve_follows_one_of_them() {
 }
 
 #[test]
+fn a_smooth_line_stays_smooth_when_one_of_its_directions_is_dragged_unless_alt_is_held() {
+    let script = FOXES.replace("points=\"-1 0 0  0 0 0.6  1 0 0\" curve=\"smooth\"", "line=\"way\"");
+    let mut window = project(&script, LINES).window();
+    select(&mut window, &["aisle"]);
+    let (from, to) = (DVec3::new(0.4, 0.0, -0.5), DVec3::new(0.5, 0.0, 0.2));
+    let read = |window: &Window| {
+        let text = named_text(window, "scene.lines.xml");
+        DrawnLines::read(text.as_str()).unwrap().list()[0].points.clone()
+    };
+    let before = read(&window);
+    drag(&mut window, from, to, None);
+    let after = read(&window);
+    assert!(after[4].distance(to) < 0.01, "{}", after[4]);
+    let [one, other] = [after[2], after[4]].map(|arm| (arm - after[3]).normalize());
+    assert!(one.dot(other) < -0.999_99, "{one} {other}");
+    assert!((after[2].length() - before[2].length()).abs() < 0.001, "its length stays: {}", after[2]);
+    for index in [0, 1, 3, 5, 6] {
+        assert_eq!(after[index], before[index], "{index}");
+    }
+    window.state_mut().change(Change::Undo);
+    window.run_steps(2);
+    assert_eq!(named_text(&window, "scene.lines.xml"), LINES);
+
+    let [start, end] = [from, to].map(|place| at(&window, place));
+    send(&mut window, InputEvent::MouseMove(start));
+    send(&mut window, InputEvent::MouseDown(Button::Left));
+    send(&mut window, InputEvent::Modifiers(Modifiers { alt: true, ..Modifiers::default() }));
+    for share in [0.5, 1.0] {
+        send(&mut window, InputEvent::MouseMove(start.lerp(end, share)));
+    }
+    send(&mut window, InputEvent::MouseUp(Button::Left));
+    let alone = read(&window);
+    assert!(alone[4].distance(to) < 0.01, "{}", alone[4]);
+    assert_eq!(alone[2], before[2], "the other direction");
+}
+
+#[test]
 fn paths_show_where_feet_land_and_where_they_bend_too_much() {
     let mut window = scene(FOXES).window();
     let looks = |window: &Window| window.state().state.read().scene_editing.lines().looks().clone();

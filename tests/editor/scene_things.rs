@@ -10,7 +10,7 @@ use dragonfly::panels::{Effect, FileChoice, Request, State};
 use dragonfly_document::View;
 use dragonfly_document::bones::Choice;
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use std::path::Path;
 use std::time::Instant;
 

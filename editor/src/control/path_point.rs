@@ -32,4 +32,6 @@ pub struct PathPoint {
     pub place: DVec3,
     /// For a point that gives a curve its direction: the point of the line that it belongs to.
     pub arm: Option<DVec3>,
+    /// Whether it is moved without the one that gives the curve its direction on the other side of that point.
+    pub alone: bool,
 }

@@ -5,6 +5,7 @@
 //! drag            moves the point at its height
 //! Shift + drag    moves it up and down
 //! Ctrl + drag     snaps it to a quarter of a meter, on the axes that it moves along
+//! Alt in a drag   moves a direction of a smooth line alone, so that the line gets a corner
 //! Esc, right      cancels the drag
 //! ```
 
@@ -95,7 +96,7 @@ impl PointSet for PathPoints {
         let put = place + by;
         // The other axes stay exactly as they are.
         let put = if modifiers.ctrl { DVec3::select(moved, (put / SNAP).round() * SNAP, place) } else { put };
-        put.is_finite().then(|| PathPoint { place: put, ..point.clone() })
+        put.is_finite().then(|| PathPoint { place: put, alone: modifiers.alt, ..point.clone() })
     }
 
     fn pressed(point: &PathPoint) -> Option<ToolOutcome> {

@@ -87,7 +87,11 @@ pub(super) fn open_scene(workspace: &Workspace) -> Result<Arc<SceneView>, Gestur
     scene.ok_or_else(|| GestureRefusal("No scene is open".to_owned()))
 }
 
+/// Cosine of the angle between two directions at a point of a line from which on the line is smooth there.
+const SMOOTH: f64 = -0.999;
+
 /// Returns the control points of a line after one of them was moved. The two that give the curve its direction at a point of the line move along with it.
+/// One of these two turns the other one where the line is smooth, unless it is moved alone: a line without a corner gets none.
 fn moved(line: &DrawnLine, point: &PathPoint) -> Option<Vec<DVec3>> {
     let mut points = line.points.clone();
     let by = point.place - *points.get(point.index)?;
@@ -96,5 +100,25 @@ fn moved(line: &DrawnLine, point: &PathPoint) -> Option<Vec<DVec3>> {
     for own in &mut points[point.index.saturating_sub(reach)..=last] {
         *own += by;
     }
+    if let Some((at, other)) =
+        other_side(point.index).filter(|(_, other)| *other < points.len() && !point.alone)
+    {
+        let [old, new, opposite] =
+            [line.points[point.index], point.place, points[other]].map(|arm| arm - points[at]);
+        if old.normalize_or_zero().dot(opposite.normalize_or_zero()) < SMOOTH {
+            let direction = new.try_normalize().unwrap_or(-opposite.normalize());
+            points[other] = points[at] - direction * opposite.length();
+        }
+    }
     Some(points)
+}
+
+/// Returns the point of a line to which a control point gives a direction, and the control point on the other side of it; `None` for a point of the line, and
+/// before the first one.
+fn other_side(index: usize) -> Option<(usize, usize)> {
+    match index % 3 {
+        1 => Some((index - 1, index.checked_sub(2)?)),
+        2 => Some((index + 1, index + 2)),
+        _ => None,
+    }
 }

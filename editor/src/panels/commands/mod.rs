@@ -91,7 +91,10 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Alt + drag the end of the bar over selected keys", "Scale keys about the playhead"),
     ("Drag the values beside the curves", "Pan the values; wheel: zoom; double-click: fit"),
     ("Drag a key of the motion path", "Move the bone at that key"),
-    ("Drag a point of a selected path or line", "Move it at its height; Shift: up and down, Ctrl: snap"),
+    (
+        "Drag a point of a selected path or line",
+        "Move it at its height; Shift: up and down, Ctrl: snap, Alt: one direction alone",
+    ),
     ("Ctrl + click a selected path or line", "Add a point there"),
     ("Click a point of a path or line, then Delete", "Remove that point"),
     ("Click a drawn line", "Select it; Shift: add it, Ctrl: toggle it; Delete: remove it"),

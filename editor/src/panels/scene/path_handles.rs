@@ -33,6 +33,7 @@ pub(super) fn path_handles<'a>(
                 index,
                 place,
                 arm: None,
+                alone: false,
             }));
             continue;
         }
@@ -72,6 +73,7 @@ fn line_points(name: &str, line: &DrawnLine, of: Option<RigidPlace>) -> Vec<Path
             index,
             place: place(line.points[index]),
             arm: arm.and_then(|arm| line.points.get(arm).copied()).map(place),
+            alone: false,
         }
     };
     let (on_line, arms): (Vec<PathPoint>, Vec<PathPoint>) =
