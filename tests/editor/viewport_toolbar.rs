@@ -109,8 +109,9 @@ fn the_menu_has_its_entries_in_the_order_of_the_toolbar_from_the_left() {
     let more = window.get_by_label(MORE).rect();
     click(&mut window, more);
     let top = |id: Id| {
-        let found = window.query_all_by_label_contains(commands::get(id).title).map(|node| node.rect().top());
-        found.filter(|top| *top > more.bottom()).next().expect("an entry")
+        let mut found =
+            window.query_all_by_label_contains(commands::get(id).title).map(|node| node.rect().top());
+        found.find(|top| *top > more.bottom()).expect("an entry")
     };
     let tops =
         [Id::ShadeMaterial, Id::ShadeClay, Id::ShadeUnlit, Id::BonesOctahedra, Id::BonesSticks].map(top);

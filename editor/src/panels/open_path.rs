@@ -81,7 +81,8 @@ impl OpenPathDialog {
         }
         ui.add_space(GRID);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let able = !self.path.trim().is_empty() && !(is_of_scene(used) && is_folder(&self.path));
+            let is_missing = self.path.trim().is_empty() || is_of_scene(used) && is_folder(&self.path);
+            let able = !is_missing;
             let open = ui.add_enabled(able, Button::new(action)).clicked();
             if ui.button("Cancel").clicked() {
                 requests.push(Request::Overlay(None));

@@ -290,7 +290,7 @@ impl HeldBar {
 /// Returns a number as a place in an order: 1st, 2nd, 11th.
 fn ordinal(number: usize) -> String {
     let ending = match (number % 10, number % 100) {
-        (1 | 2 | 3, 11..=13) => "th",
+        (1..=3, 11..=13) => "th",
         (1, _) => "st",
         (2, _) => "nd",
         (3, _) => "rd",
