@@ -1,13 +1,13 @@
 //! Tooltips and values next to the pointer cover neither menus nor what is dragged, and a narrow bar has no overlaps.
 
 use crate::timeline_rig::Animator;
-use crate::workbench::{Window, Workbench};
+use crate::workbench::{Window, Workbench, draws};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::{self, Id};
 use dragonfly::panels::dialogs::UnsavedQuestion;
 use dragonfly::panels::prompts::Overlay;
 use dragonfly_document::Then;
-use egui::{Event, PointerButton, Shape, pos2, vec2};
+use egui::{Event, PointerButton, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 
 #[test]
@@ -86,12 +86,6 @@ fn a_tooltip_is_not_over_a_question_or_an_overlay_that_opens_while_the_pointer_r
     }
 }
 
-/// Returns whether a text is drawn that contains `part`.
-fn draws(animator: &Animator, part: &str) -> bool {
-    let mut shapes = animator.harness.output().shapes.iter().map(|clipped| &clipped.shape);
-    shapes.any(|shape| matches!(shape, Shape::Text(text) if text.galley.text().contains(part)))
-}
-
 #[test]
 fn the_value_of_a_key_is_not_drawn_over_its_menu() {
     let mut animator = Animator::with_bone(3);
@@ -101,7 +95,7 @@ fn the_value_of_a_key_is_not_drawn_over_its_menu() {
     let x = animator.x_in(curves, animator.key(8));
     let key = (0..curves.height() as u32).map(|y| pos2(x, curves.top() + y as f32)).find(|&at| {
         animator.move_to(at);
-        draws(&animator, "rib_00_left_middle rotation")
+        draws(animator.harness.output(), "rib_00_left_middle rotation")
     });
     let key = key.expect("a key of the curves");
     animator.button(key, PointerButton::Secondary, true);
@@ -109,7 +103,7 @@ fn the_value_of_a_key_is_not_drawn_over_its_menu() {
     animator.steps(4);
     assert!(animator.harness.query_by_label_contains("Delete keys").is_some(), "the menu is open");
     animator.move_to(key);
-    assert!(!draws(&animator, "rib_00_left_middle rotation"));
+    assert!(!draws(animator.harness.output(), "rib_00_left_middle rotation"));
 }
 
 #[test]

@@ -2,11 +2,11 @@
 
 use crate::scene_bench::{FOXES, new_lines, scene, text};
 use crate::scene_timeline::{Lanes, drag};
-use crate::workbench::{Window, move_to, press, release};
+use crate::workbench::{Window, draws, move_to, press, release};
 use dragonfly::panels::Request;
 use dragonfly::panels::scene::SceneRequest;
 use dragonfly_document::bones::Choice;
-use egui::{Modifiers, Shape, pos2};
+use egui::{Modifiers, pos2};
 
 const LOOKS: usize = 5;
 const RUN: usize = 6;
@@ -49,12 +49,6 @@ fn an_end_whose_followers_move_along_is_trimmed_frame_by_frame() {
     assert_eq!(ends, [52, 53, 54, 55, 56, 57]);
 }
 
-/// Returns whether a text is drawn that contains `part`.
-fn draws(window: &Window, part: &str) -> bool {
-    let mut shapes = window.output().shapes.iter().map(|clipped| &clipped.shape);
-    shapes.any(|shape| matches!(shape, Shape::Text(text) if text.galley.text().contains(part)))
-}
-
 #[test]
 fn a_clip_that_is_dragged_past_the_next_one_of_its_sequence_tells_its_new_place_and_time_at_the_pointer() {
     let apart = FOXES.replace("begin=\"-0.5\" fade-in=\"0.5\" repeat=\"3\"", "repeat=\"3\"");
@@ -65,12 +59,12 @@ fn a_clip_that_is_dragged_past_the_next_one_of_its_sequence_tells_its_new_place_
     press(&mut window, from);
     move_to(&mut window, after(0.25), Modifiers::NONE);
     move_to(&mut window, after(0.5), Modifiers::NONE);
-    assert!(draws(&window, "begins at 0.500 s") && !draws(&window, "in sequence"));
+    assert!(draws(window.output(), "begins at 0.500 s") && !draws(window.output(), "in sequence"));
     move_to(&mut window, after(3.25), Modifiers::NONE);
     // It is the second one of the two now.
     let [begin, _] = times(&window, RUN);
     assert!(
-        begin > 3.0 && draws(&window, &format!("becomes 2nd in sequence, begins at {begin:.3} s")),
+        begin > 3.0 && draws(window.output(), &format!("becomes 2nd in sequence, begins at {begin:.3} s")),
         "{begin}"
     );
     release(&mut window, after(3.25));

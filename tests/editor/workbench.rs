@@ -191,6 +191,12 @@ pub(crate) fn drag(window: &mut Window, field: &str, by: egui::Vec2, modifiers: 
     release(window, from + by);
 }
 
+/// Returns whether a text is drawn that contains `part`.
+pub(crate) fn draws(output: &egui::FullOutput, part: &str) -> bool {
+    let mut shapes = output.shapes.iter().map(|clipped| &clipped.shape);
+    shapes.any(|shape| matches!(shape, egui::Shape::Text(text) if text.galley.text().contains(part)))
+}
+
 pub(crate) fn press(window: &mut Window, at: egui::Pos2) {
     window.event(egui::Event::PointerMoved(at));
     window.run_steps(1);

@@ -5,7 +5,7 @@ use super::gestures::{called, changed, gesture, moved};
 use super::read;
 use dragonfly_anim::stage::gesture::{
     Followers, GestureRefusal, SequenceOrder, add_clip, delete_clip, duplicate_clip, move_clip,
-    sequence_move, trim_end, trim_start,
+    sequence_move, sequence_place, trim_end, trim_start,
 };
 
 /// Returns begin and end of the action called `id`, seconds.
@@ -45,7 +45,8 @@ fn a_moved_clip_names_its_new_place_in_the_sequence_and_its_new_begin() {
         let mut told = None;
         let (_, new) = gesture(seq, |scene| {
             let action = called(scene, id);
-            told = sequence_move(scene, action, seconds(to));
+            told = sequence_place(scene, action, seconds(to))
+                .and_then(|place| sequence_move(scene, action, place));
             move_clip(scene, action, seconds(to), SequenceOrder::Change, Followers::Follow)
         });
         let new = new.expect("a text");

@@ -69,7 +69,7 @@ pub use copying::{copied_clips, duplicate_clips, is_copied_clips, paste_clips, t
 pub use draft::spliced_text;
 pub use holding::{HeldGrip, attach_splices, attach_thing, detach_splices, grip_splices};
 pub use insert::{add_clip, cut_to, follow_path};
-pub use moving::{SequenceMove, SequenceOrder, move_clip, sequence_move};
+pub use moving::{SequenceMove, SequenceOrder, move_clip, sequence_move, sequence_place};
 pub use new_action::{add_new_action, wait_after};
 pub use other_lane::{MovedToLane, move_clips_to_lane, move_to_lane};
 pub use path_points::{

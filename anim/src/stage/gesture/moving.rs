@@ -46,7 +46,7 @@ pub fn move_clip(
     let times = scene.times(action);
     let draft = ScriptDraft::of(scene.script);
     if order == SequenceOrder::Change
-        && let Some(place) = changed_place(scene, action, to)
+        && let Some(place) = sequence_place(scene, action, to)
     {
         return reordered(scene, action, place)?.0.finish();
     }
@@ -65,11 +65,9 @@ pub fn move_clip(
     draft.finish_with(&scene.lengths(), |changed| scene.keeps_length(action, changed, action))
 }
 
-/// Returns the place that an action gets among its neighbors in a `seq` where [`move_clip`] moves it to `to` with [`SequenceOrder::Change`]; `None`
-/// where it keeps its own, or the move is refused.
-pub fn sequence_move(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Option<SequenceMove> {
-    scene.element(action).ok()?;
-    let place = changed_place(scene, action, to)?;
+/// Returns where an action is among its neighbors in a `seq` after [`move_clip`] brought it to a [`sequence_place`]; `None` where that is refused. Reads
+/// the new text.
+pub fn sequence_move(scene: &GestureScene<'_>, action: usize, place: ElementPlace) -> Option<SequenceMove> {
     let (draft, origins) = reordered(scene, action, place).ok()?;
     let script = draft.read().ok()??;
     let origins = origins.in_script(scene, &script);
@@ -79,9 +77,10 @@ pub fn sequence_move(scene: &GestureScene<'_>, action: usize, to: StageTime) -> 
     Some(SequenceMove { number: script.actions().get(new)?.position + 1, begin })
 }
 
-/// Returns the other place in a `seq` to which an action that begins at `to` goes; `None` where it stays in its own. A time before the start brings a
-/// long clip before a short one, too.
-fn changed_place(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Option<ElementPlace> {
+/// Returns the other place in a `seq` to which [`move_clip`] brings an action that is moved to `to` with [`SequenceOrder::Change`]; `None` where it stays in
+/// its own, and for an action that does not exist. A time before the start brings a long clip before a short one, too.
+pub fn sequence_place(scene: &GestureScene<'_>, action: usize, to: StageTime) -> Option<ElementPlace> {
+    scene.element(action).ok()?;
     let is_free = scene.script.actions()[action].passive || !ends_with_another(scene, action);
     if is_usual(scene, action) && is_free { new_place(scene, action, to) } else { None }
 }

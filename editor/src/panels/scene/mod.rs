@@ -68,6 +68,7 @@ pub use new_thing::{
 };
 pub use no_place::{no_drop_text, no_place_text};
 pub(in crate::panels) use outliner::{active_request, thing_menu};
+pub(in crate::panels) use path_handles::directed_point;
 pub use probe::SceneProbe;
 pub use renamed_things::RenamedThings;
 pub use request::{DraggedTake, LineRequest, SceneRequest, ScriptChange};

@@ -8,9 +8,11 @@ use crate::panels::request::Request;
 use crate::panels::scene::{ChangedThings, SceneBase, SceneEditing, SceneRequest, ScriptChange, move_label};
 use dragonfly_anim::stage::gesture::{
     FadeEnd, Followers, GestureRefusal, MovedPart, MovedToLane, SequenceMove, SequenceOrder, in_this_text,
-    move_clips, move_clips_to_lane, moved_along, sequence_move, set_fade, stretch_to, trim_end, trim_start,
+    move_clips, move_clips_to_lane, moved_along, sequence_move, sequence_place, set_fade, stretch_to,
+    trim_end, trim_start,
 };
 use dragonfly_anim::stage::lanes::{SceneBar, SceneLane, SceneLanes};
+use dragonfly_anim::stage::splice::ElementPlace;
 use dragonfly_anim::stage::table::element;
 use dragonfly_anim::stage::time::{StageRate, StageTime, TICKS_PER_SECOND};
 use dragonfly_document::edit::ScriptLabel;
@@ -45,7 +47,7 @@ pub(super) struct HeldBar {
     /// Why it could not be brought there, or not with all actions that move along.
     refused: Option<GestureRefusal>,
     /// The place that it has there among the actions of its sequence, if that is another one than before.
-    becomes: Option<SequenceMove>,
+    becomes: Option<(ElementPlace, SequenceMove)>,
 }
 
 /// A place to which an edge is brought.
@@ -246,20 +248,24 @@ impl HeldBar {
     }
 
     /// Returns the other place in its sequence to which the bar goes; `None` where it keeps its own.
-    fn other_place(&self, asked: &AskedEdge) -> Option<SequenceMove> {
+    fn other_place(&self, asked: &AskedEdge) -> Option<(ElementPlace, SequenceMove)> {
         let may = self.part == SceneBarPart::Body && !asked.alt && asked.onto.is_none();
         let is_alone = self.actions == [self.bar.action];
         if !(may && is_alone) {
             return None;
         }
-        sequence_move(&self.base.scene(), self.bar.action, asked.time)
+        let (scene, action) = (self.base.scene(), self.bar.action);
+        let place = sequence_place(&scene, action, asked.time)?;
+        // The place alone decides what it becomes, so that a movement without another one reads no text.
+        let known = self.becomes.filter(|(of, _)| *of == place);
+        known.or_else(|| Some((place, sequence_move(&scene, action, place)?)))
     }
 
     /// Returns the numbers of the drag.
     fn amounts(&self, edge: StageTime, rate: StageRate) -> String {
         let (seconds, frame) = (edge.seconds(), rate.nearest_frame(edge));
         let what = match self.part {
-            SceneBarPart::Body if let Some(SequenceMove { number, begin }) = self.becomes => format!(
+            SceneBarPart::Body if let Some((_, SequenceMove { number, begin })) = self.becomes => format!(
                 "becomes {} in sequence, begins at {:.3} s, frame {}",
                 ordinal(number),
                 begin.seconds(),
