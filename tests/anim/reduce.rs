@@ -3,7 +3,7 @@
 use crate::doors::data;
 use crate::support::{about_z, along_x, bone, take};
 use dragonfly_anim::animation::to_root;
-use dragonfly_anim::data::{Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform};
+use dragonfly_anim::data::{Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::reduce::{Contact, ContactSearch, Contacts, ReduceSettings, Reduced, measure, reduce};
 use dragonfly_anim::sample::sample_take;
@@ -431,6 +431,47 @@ fn any_take_is_reduced_or_left_unchanged() {
     }
     let nothing = reduce(&Take::default(), &Skeleton::default(), &ReduceSettings::default()).unwrap();
     assert_eq!((nothing.take, nothing.measurement.largest), (Take::default(), None));
+}
+
+/// Returns the same model with its bones in a random order, parents first, and the number of each bone in the given one.
+fn shuffled(skeleton: &Skeleton, take: &Take, random: &mut Random) -> (Skeleton, Take, Vec<usize>) {
+    let mut order: Vec<usize> = Vec::new();
+    while order.len() < skeleton.len() {
+        let has_parent =
+            |bone: &usize| skeleton.bones[*bone].parent.is_none_or(|up| order.contains(&(up as usize)));
+        let next: Vec<usize> =
+            (0..skeleton.len()).filter(|bone| !order.contains(bone)).filter(has_parent).collect();
+        order.push(random.choice(&next));
+    }
+    let new = |old: u32| order.iter().position(|&bone| bone == old as usize).expect("a parent") as u32;
+    let bones = order.iter().map(|&bone| &skeleton.bones[bone]);
+    let bones = bones.map(|bone| Bone { parent: bone.parent.map(new), ..bone.clone() }).collect();
+    let track = |(index, &bone): (usize, &usize)| Track { bone: index as u32, ..take.tracks[bone].clone() };
+    let tracks = order.iter().enumerate().map(track).collect();
+    (Skeleton { bones }, Take { tracks, ..take.clone() }, order)
+}
+
+#[test]
+fn the_same_keys_stay_whatever_the_order_of_the_bones_in_the_file() {
+    let mut random = Random::new(seed(6));
+    for _ in 0..200 {
+        let (mut skeleton, take) = wild(&mut random);
+        skeleton.bones.iter_mut().enumerate().for_each(|(index, bone)| bone.name = format!("bone {index}"));
+        let settings = within(random.choice(&[0.0, 0.1, 5.0, 1e4]), 100.0);
+        let reduced = reduce(&take, &skeleton, &settings).expect("reduced");
+        let (other, moved, order) = shuffled(&skeleton, &take, &mut random);
+        let again = reduce(&moved, &other, &settings).expect("reduced");
+        for (index, (track, bone)) in again.take.tracks.iter().zip(order).enumerate() {
+            let expected = Track { bone: index as u32, ..reduced.take.tracks[bone].clone() };
+            assert_eq!(
+                *track,
+                expected,
+                "bone {bone} of {} within {} mm",
+                skeleton.len(),
+                settings.tolerance
+            );
+        }
+    }
 }
 
 #[test]

@@ -24,6 +24,7 @@ use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take, Track, Tran
 use crate::ik::{EndOrientation, IkError, TwoBone, two_bone};
 use crate::sample::{rest_pose, sample_channel, sample_take};
 use glam::{Mat4, Quat, Vec3};
+use std::collections::HashSet;
 
 /// How contacts are locked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,12 +156,13 @@ fn lock(
     settings: &LockSettings,
 ) -> Result<LockedTake, LockError> {
     check_rate(take, settings)?;
-    let mut bones: Vec<BoneIndex> = contacts.iter().map(|contact| contact.bone).collect();
-    // The order of locking matters for limbs that share bones; the order of the bones in the file must not.
-    bones.sort_by_cached_key(|&bone| (skeleton.ancestors(bone).count(), name_of(skeleton, bone), bone));
-    bones.dedup();
+    let held: HashSet<BoneIndex> = contacts.iter().map(|contact| contact.bone).collect();
+    if let Some(&bone) = held.iter().filter(|bone| **bone as usize >= skeleton.len()).min() {
+        return Err(LockError::NoLimb { bone });
+    }
     let mut locked = LockedTake { take: take.clone(), farthest: 0.0, bones: Vec::new() };
-    for bone in bones {
+    // The order of locking matters for limbs that share bones; the order of the bones in the file must not.
+    for bone in skeleton.by_depth_and_name().into_iter().filter(|bone| held.contains(bone)) {
         let limb = limb_of(skeleton, bone).ok_or(LockError::NoLimb { bone })?;
         let limb = TwoBone { end_orientation: EndOrientation::KeepToRoot, ..limb };
         let spans = merged(contacts.iter().filter(|contact| contact.bone == bone), take);
@@ -169,11 +171,6 @@ fn lock(
     locked.bones.sort_unstable();
     locked.bones.dedup();
     Ok(locked)
-}
-
-/// Returns the name of a bone, none for one that does not exist.
-fn name_of(skeleton: &Skeleton, bone: BoneIndex) -> &str {
-    skeleton.bones.get(bone as usize).map_or("", |bone| bone.name.as_str())
 }
 
 /// Returns the contacts within the take, ascending; those that overlap as one.

@@ -79,6 +79,20 @@ impl Skeleton {
         std::iter::successors(first, |&bone| self.parent(bone))
     }
 
+    /// Returns all bones from the root down, those with the same number of bones above them by name: the same order in every version of a model, whatever
+    /// that of its file. Bones that share a name are in the order of the file.
+    pub fn by_depth_and_name(&self) -> Vec<BoneIndex> {
+        let mut depths: Vec<u32> = Vec::with_capacity(self.len());
+        for bone in 0..self.len() {
+            let parent = self.parent(bone as BoneIndex);
+            depths.push(parent.map_or(0, |parent| depths[parent as usize] + 1));
+        }
+        let mut order: Vec<BoneIndex> = (0..self.len() as BoneIndex).collect();
+        let key = |bone: BoneIndex| (depths[bone as usize], self.bones[bone as usize].name.as_str());
+        order.sort_by(|a, b| key(*a).cmp(&key(*b)));
+        order
+    }
+
     /// Returns the number of bones.
     pub fn len(&self) -> usize {
         self.bones.len()

@@ -55,7 +55,7 @@ impl<'a> KeySearch<'a> {
                 children[parent as usize].push(index as BoneIndex);
             }
         }
-        let columns = columns(take, bones, &source.times);
+        let columns = columns(take, skeleton, &source.times);
         Self {
             take,
             skeleton,
@@ -308,11 +308,12 @@ struct RemovalCandidate {
     key: u32,
 }
 
-/// Returns every channel of the take that can lose keys.
-fn columns(take: &Take, bones: usize, times: &[f32]) -> Vec<ChannelKeys> {
+/// Returns every channel of the take that can lose keys, in an order in which those of versions of a model are alike: of keys of equal cost, the first one is
+/// removed first.
+fn columns(take: &Take, skeleton: &Skeleton, times: &[f32]) -> Vec<ChannelKeys> {
     let mut columns = Vec::new();
-    for (bone, track) in take.tracks.iter().take(bones).enumerate() {
-        let bone = bone as BoneIndex;
+    for bone in skeleton.by_depth_and_name() {
+        let Some(track) = take.tracks.get(bone as usize) else { continue };
         columns.extend(ChannelKeys::new(bone, CurveKind::Translation, &track.translation, times));
         columns.extend(ChannelKeys::new(bone, CurveKind::Rotation, &track.rotation, times));
         columns.extend(ChannelKeys::new(bone, CurveKind::Scale, &track.scale, times));
