@@ -4,10 +4,13 @@ use crate::scene_bench::{FOXES, looked, new_lines, scene, text};
 use crate::scene_lines::{at, send};
 use crate::workbench::Window;
 use dragonfly::control::InputEvent;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::scene::SceneRequest;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_document::SceneModel;
+use dragonfly_document::bones::Choice;
 use glam::{DVec3, Vec3};
 use std::path::PathBuf;
 
@@ -114,4 +117,29 @@ fn a_model_that_is_dropped_with_the_pointer_stands_where_it_was_dropped() {
     let roles = roles(&window);
     assert!(roles[2].0.distance(wanted.as_vec3()) < 0.4, "{}", roles[2].0);
     assert!(cuts(&roles[1].1, &roles[2].1), "also where another role stands");
+}
+
+#[test]
+fn a_role_that_is_added_out_of_sight_is_brought_into_view_and_another_one_leaves_the_view() {
+    let camera = |window: &Window| window.state().state.read().camera;
+    let mut window = scene(&occupied()).window();
+    let before = camera(&window);
+    add(&mut window, by_command());
+    assert_eq!(camera(&window), before, "it is in sight");
+    // Far to the side of what is shown.
+    let mut window =
+        scene(&FOXES.replace("at=\"1 0 0\"", "at=\"40 0 0\"").replace("at=\"-1 0 0\"", "at=\"40 0 2\""))
+            .window();
+    window
+        .state_mut()
+        .state
+        .execute(Request::Scene(SceneRequest::SelectThings(vec!["anna".into()], Choice::Replace)));
+    window.state_mut().state.execute(Request::Command(Id::FrameSelected));
+    window.run_steps(2);
+    let before = camera(&window);
+    assert!(before.target.x > 30.0, "{before:?}");
+    add(&mut window, by_command());
+    let (place, _) = roles(&window)[2];
+    let after = camera(&window);
+    assert!(place.x < 10.0 && after.target.distance(place) < 2.0, "{place} {after:?}");
 }

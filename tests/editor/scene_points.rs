@@ -184,6 +184,67 @@ fn a_smooth_line_stays_smooth_when_one_of_its_directions_is_dragged_unless_alt_i
 }
 
 #[test]
+fn alt_counts_for_a_direction_whose_place_on_the_grid_stays() {
+    let script = FOXES.replace("points=\"-1 0 0  0 0 0.6  1 0 0\" curve=\"smooth\"", "line=\"way\"");
+    let mut window = project(&script, LINES).window();
+    select(&mut window, &["aisle"]);
+    let read = |window: &Window| {
+        let text = named_text(window, "scene.lines.xml");
+        DrawnLines::read(text.as_str()).unwrap().list()[0].points.clone()
+    };
+    let before = read(&window);
+    let [start, end] =
+        [DVec3::new(0.4, 0.0, -0.5), DVec3::new(0.5, 0.0, 0.25)].map(|place| at(&window, place));
+    send(&mut window, InputEvent::MouseMove(start));
+    send(&mut window, InputEvent::MouseDown(Button::Left));
+    let mut moved = |alt: bool, to: Vec2| {
+        send(&mut window, InputEvent::Modifiers(Modifiers { ctrl: true, alt, ..Modifiers::default() }));
+        send(&mut window, InputEvent::MouseMove(to));
+        let points = read(&window);
+        (points[4], points[2])
+    };
+    let snapped = DVec3::new(0.5, 0.0, 0.25);
+    let (own, other) = moved(false, end);
+    assert!(own.distance(snapped) < 1e-6 && other != before[2], "{own} {other}");
+    assert_eq!(moved(true, end + Vec2::ONE), (own, before[2]), "alone");
+    assert_eq!(moved(false, end), (own, other), "both again");
+}
+
+#[test]
+fn a_selected_camera_shows_the_points_of_the_path_that_it_moves_along_and_they_are_dragged() {
+    let script =
+        FOXES.replace("  </par>", "    <move who=\"wide\" path=\"aisle\" begin=\"0\" dur=\"4\"/>\n  </par>");
+    let mut window = scene(&script).window();
+    select(&mut window, &["ben"]);
+    assert!(shown_points(&window).is_empty(), "a role");
+    select(&mut window, &["close"]);
+    assert!(shown_points(&window).is_empty(), "a camera that does not move");
+    select(&mut window, &["wide"]);
+    assert_eq!(shown_points(&window), [DVec3::NEG_X, DVec3::new(0.0, 0.0, 0.6), DVec3::X]);
+    select(&mut window, &["aisle", "wide"]);
+    assert_eq!(shown_points(&window).len(), 3, "each point once");
+    select(&mut window, &["wide"]);
+    drag(&mut window, DVec3::X, DVec3::new(0.9, 0.0, 0.7), None);
+    let new = new_lines(&script, &text(&window));
+    assert!(new.len() == 1 && new[0].starts_with("<path") && points(&new[0])[2].z > 0.5, "{new:?}");
+    window.state_mut().state.execute(Request::Scene(SceneRequest::Lock(vec!["aisle".into()], true)));
+    window.run_steps(2);
+    assert!(shown_points(&window).is_empty(), "its path is locked");
+}
+
+#[test]
+fn a_point_of_a_small_path_is_dragged_where_the_gizmo_covers_it() {
+    let script = FOXES.replace("-1 0 0  0 0 0.6  1 0 0", "-0.05 0 0  0 0 0.03  0.05 0 0");
+    let mut window = scene(&script).window();
+    select(&mut window, &["aisle"]);
+    drag(&mut window, DVec3::new(0.0, 0.0, 0.03), DVec3::new(0.1, 0.0, 0.4), None);
+    let new = new_lines(&script, &text(&window));
+    assert_eq!(new.len(), 1, "{new:?}");
+    assert!(new[0].contains("points=\"-0.05 0 0  ") && new[0].contains("  0.05 0 0\""), "one point: {new:?}");
+    assert!(points(&new[0])[1].distance(DVec3::new(0.1, 0.0, 0.4)) < 0.01, "{new:?}");
+}
+
+#[test]
 fn paths_show_where_feet_land_and_where_they_bend_too_much() {
     let mut window = scene(FOXES).window();
     let looks = |window: &Window| window.state().state.read().scene_editing.lines().looks().clone();

@@ -142,6 +142,7 @@ pub(super) fn opened(workspace: &mut Workspace) {
 pub(super) fn follow(workspace: &mut Workspace, answered: u64) {
     let Some(view) = workspace.model.view() else { return };
     let scene = view.scene.clone();
+    let awaited = workspace.scene.awaited().to_vec();
     let renamed = workspace.scene.update(scene.as_deref(), answered);
     if let ThroughCamera::Of(camera) = workspace.camera.through()
         && let Some(new) = renamed.new_name(camera)
@@ -161,6 +162,9 @@ pub(super) fn follow(workspace: &mut Workspace, answered: u64) {
         workspace.frame_rate.choose(rate);
     }
     scene_view::frame_once(workspace);
+    if !awaited.is_empty() && workspace.scene.awaited().is_empty() {
+        scene_view::bring_into_view(workspace, &awaited);
+    }
     // The models may have come after the script.
     if workspace.player.take().is_none()
         && let Some(bounds) = workspace.read().scene_bounds()

@@ -6,7 +6,7 @@ use super::scene_lines::place_of;
 use super::scene_text::change_text;
 use crate::control::path_point::{PathPoint, PathPointOwner};
 use crate::panels::request::Effect;
-use crate::panels::scene::{ChangedThings, ScriptChange, line_named};
+use crate::panels::scene::{ChangedThings, ScriptChange, directed_point, line_named};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::stage::gesture::{GestureRefusal, path_point_splices};
@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 /// Sends the text in which a point is where the pointer put it, unless the text has that place already.
 pub(super) fn send(workspace: &mut Workspace, point: &PathPoint, effects: &mut Vec<Effect>) {
-    if !workspace.stage.is_new_place(point.place) {
+    if !workspace.stage.is_new_place(point) {
         return;
     }
     let gesture = workspace.tools.drag().gesture().unwrap_or_else(|| workspace.dragging.new_gesture());
@@ -100,25 +100,16 @@ fn moved(line: &DrawnLine, point: &PathPoint) -> Option<Vec<DVec3>> {
     for own in &mut points[point.index.saturating_sub(reach)..=last] {
         *own += by;
     }
-    if let Some((at, other)) =
-        other_side(point.index).filter(|(_, other)| *other < points.len() && !point.alone)
+    let (old, new) = (line.points[point.index], point.place);
+    if !point.alone
+        && let Some(at) = directed_point(point.index)
+        && let Some(other) = (2 * at).checked_sub(point.index).filter(|other| *other < points.len())
     {
-        let [old, new, opposite] =
-            [line.points[point.index], point.place, points[other]].map(|arm| arm - points[at]);
+        let [old, new, opposite] = [old, new, points[other]].map(|place| place - points[at]);
         if old.normalize_or_zero().dot(opposite.normalize_or_zero()) < SMOOTH {
             let direction = new.try_normalize().unwrap_or(-opposite.normalize());
             points[other] = points[at] - direction * opposite.length();
         }
     }
     Some(points)
-}
-
-/// Returns the point of a line to which a control point gives a direction, and the control point on the other side of it; `None` for a point of the line, and
-/// before the first one.
-fn other_side(index: usize) -> Option<(usize, usize)> {
-    match index % 3 {
-        1 => Some((index - 1, index.checked_sub(2)?)),
-        2 => Some((index + 1, index + 2)),
-        _ => None,
-    }
 }

@@ -6,9 +6,11 @@ use dragonfly_anim::data::Transform;
 use dragonfly_anim::stage::PlannedThing;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{LoadedModel, SceneModel, SceneView};
+use dragonfly_picture::ThroughCamera;
+use dragonfly_picture::gizmo::GizmoView;
 use dragonfly_picture::placeholder_box;
 use egui::Pos2;
-use glam::Vec3;
+use glam::{DVec2, Vec2, Vec3};
 use std::sync::Arc;
 
 /// Half the size of the space that is framed around a thing of which nothing is drawn, meters.
@@ -36,6 +38,23 @@ pub(super) fn frame_selected(workspace: &mut Workspace) -> bool {
     let selected = workspace.scene.things().to_vec();
     let is_framed = |id: &str| selected.is_empty() || selected.iter().any(|own| **own == *id);
     frame(workspace, is_framed)
+}
+
+/// Frames things that were added, if the middle of the space around them is out of sight. A view through a camera of the scene stays.
+pub(super) fn bring_into_view(workspace: &mut Workspace, added: &[Box<str>]) {
+    if *workspace.camera.through() != ThroughCamera::Free {
+        return;
+    }
+    let Some(around) = framed_box(workspace, |id| added.iter().any(|own| **own == *id)) else { return };
+    let shown = workspace.camera.viewport();
+    let view = GizmoView::new(workspace.camera.camera(), Vec2::new(shown.width(), shown.height()));
+    let middle = (around.min + around.max) / 2.0;
+    let is_seen = view
+        .to_screen(middle.as_dvec3())
+        .is_some_and(|at| at.cmpge(DVec2::ZERO).all() && at.cmple(view.size).all());
+    if !is_seen {
+        workspace.camera.frame(around.min, around.max);
+    }
 }
 
 fn frame(workspace: &mut Workspace, is_framed: impl Fn(&str) -> bool) -> bool {

@@ -320,6 +320,11 @@ impl SceneEditing {
         self.awaited = things;
     }
 
+    /// Returns the things that are selected as soon as the script has them.
+    pub(in crate::panels) fn awaited(&self) -> &[Box<str>] {
+        &self.awaited
+    }
+
     /// Selects the actions that this text has more than the one that is shown, as soon as it is shown.
     pub(in crate::panels) fn await_actions(&mut self, text: Arc<str>) {
         self.awaited_actions = Some((text, None));

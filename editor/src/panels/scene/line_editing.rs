@@ -2,7 +2,7 @@
 
 use super::line_eraser::LineEraser;
 use super::line_look::{PathDrawing, line_looks, path_drawings};
-use super::path_handles::path_handles;
+use super::path_handles::{edited_paths, path_handles};
 use super::thing_selection::ThingSelection;
 use crate::control::path_point::{PathPoint, PathPointOwner};
 use dragonfly_anim::stage::line::{DrawnLine, DrawnLines};
@@ -272,7 +272,7 @@ impl LineEditing {
             self.lines = (Some(base), looks.unwrap_or_default());
         }
         let editable = |id: &&str| !things.hidden.contains(*id) && !things.locked.contains(*id);
-        let paths = things.selected.iter().map(|id| &**id).filter(editable);
+        let paths = edited_paths(script, things.selected.iter().map(|id| &**id)).into_iter().filter(editable);
         let line = self.selected().filter(|line| !self.is_hidden(line));
         self.points = path_handles(script, scene.and_then(|scene| scene.lines.as_deref()), paths, line, of);
         self.follow_point();

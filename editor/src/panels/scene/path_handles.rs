@@ -58,23 +58,47 @@ pub(super) fn path_handles<'a>(
     found.into()
 }
 
+/// Returns the paths whose points are shown while these things are selected: the selected ones, and those along which selected cameras move.
+pub(super) fn edited_paths<'a>(
+    script: Option<&'a StageScript>,
+    selected: impl Iterator<Item = &'a str>,
+) -> Vec<&'a str> {
+    let mut paths: Vec<&str> = selected.collect();
+    let Some(script) = script else { return paths };
+    let elements = script.tree().elements();
+    let is_camera = |id: &&str| script.thing_element(id).is_some_and(|at| elements[at].row.name == "camera");
+    for camera in paths.clone().into_iter().filter(is_camera) {
+        let actions = script.actions().iter().map(|action| &elements[action.element]);
+        let moves = actions
+            .filter(|own| !own.is_included() && own.row.name == "move" && own.value("who") == Some(camera));
+        for path in moves.filter_map(|own| own.value("path")) {
+            if !paths.contains(&path) {
+                paths.push(path);
+            }
+        }
+    }
+    paths
+}
+
+/// Returns the number of the point of a line to which a control point gives a direction; `None` for a point of the line.
+pub(in crate::panels) fn directed_point(index: usize) -> Option<usize> {
+    match index % 3 {
+        0 => None,
+        1 => Some(index - 1),
+        _ => Some(index + 1),
+    }
+}
+
 /// Returns the control points of a line. Those that give a curve its direction come last, so that they are in front where they cover others.
 fn line_points(name: &str, line: &DrawnLine, of: Option<RigidPlace>) -> Vec<PathPoint> {
     let place = |point: DVec3| of.map_or(point, |of| of.rotation * point + of.position);
     let owner = PathPointOwner::Line(name.into());
-    let point = |index: usize| {
-        let arm = match index % 3 {
-            0 => None,
-            1 => Some(index - 1),
-            _ => Some(index + 1),
-        };
-        PathPoint {
-            owner: owner.clone(),
-            index,
-            place: place(line.points[index]),
-            arm: arm.and_then(|arm| line.points.get(arm).copied()).map(place),
-            alone: false,
-        }
+    let point = |index: usize| PathPoint {
+        owner: owner.clone(),
+        index,
+        place: place(line.points[index]),
+        arm: directed_point(index).and_then(|point| line.points.get(point).copied()).map(place),
+        alone: false,
     };
     let (on_line, arms): (Vec<PathPoint>, Vec<PathPoint>) =
         (0..line.points.len()).map(point).partition(|point| point.arm.is_none());

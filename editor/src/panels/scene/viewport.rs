@@ -1,6 +1,7 @@
 //! The scene in the viewport: what is under the pointer, its things at the time shown, and a drag of them.
 
 use super::{SceneBase, ThingPoses};
+use crate::control::path_point::PathPoint;
 use dragonfly_anim::stage::splice::TextSplices;
 use dragonfly_anim::stage::time::StageTime;
 use dragonfly_anim::stage::{StagePlan, StageScene};
@@ -37,8 +38,8 @@ pub struct SceneViewport {
     written: Option<TextSplices>,
     /// The scene at the start of the drag of a point of a line.
     line_base: Option<Arc<SceneView>>,
-    /// The place of the dragged point in the text that was sent last.
-    point: Option<DVec3>,
+    /// The place of the dragged point in the text that was sent last, and whether it was moved alone.
+    point: Option<(DVec3, bool)>,
     /// The heights at which things that are moved are on the ground, at the start of the drag.
     heights: Option<Arc<BTreeMap<usize, f32>>>,
     /// The gesture that moves a camera, which is one step.
@@ -137,9 +138,9 @@ impl SceneViewport {
         is_new
     }
 
-    /// Returns whether the drag in progress has not put a point there last, as far as texts tell places apart, and notes the place.
-    pub(in crate::panels) fn is_new_place(&mut self, place: DVec3) -> bool {
-        let place = (place * PER_METER).round();
+    /// Returns whether the drag in progress has not put a point there last in the same way, as far as texts tell places apart, and notes the place.
+    pub(in crate::panels) fn is_new_place(&mut self, point: &PathPoint) -> bool {
+        let place = ((point.place * PER_METER).round(), point.alone);
         self.point.replace(place) != Some(place)
     }
 
