@@ -305,6 +305,12 @@ fn every_kind_of_edit_does_the_same_in_a_version_with_everything_in_another_orde
     }
 }
 
+/// Returns whether a bone has keys in any take.
+fn has_keys(adapter: &ModelAdapter, bone: &str) -> bool {
+    let bone = adapter.skeleton().find(bone).expect("a bone") as usize;
+    adapter.results().any(|take| !take.tracks[bone].key_times().is_empty())
+}
+
 #[test]
 fn a_sequence_of_random_edits_does_the_same_and_is_undone_step_by_step() {
     let (mut random, bones) = (Random::new(seed(71)), references());
@@ -321,7 +327,9 @@ fn a_sequence_of_random_edits_does_the_same_and_is_undone_step_by_step() {
             let before = rebase.clone();
             tried += usize::from(rebase.apply(tried, &edit).is_ok());
             let Rebased { edited, unfit } = rebase.clone().finish();
-            if !unfit.is_empty() {
+            // Where the bone that only the new version has got keys, they count when others are reduced.
+            let is_other = matches!(edit, Edit::ReduceKeys(_)) && has_keys(edited.adapter(), "prop");
+            if !unfit.is_empty() || is_other {
                 rebase = before;
             } else if let Err(reason) = difference(rebase.old(), edited.adapter()) {
                 let done: String = edited.steps().0.iter().map(|step| format!("{:?}\n", step.edit)).collect();

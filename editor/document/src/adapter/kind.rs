@@ -34,7 +34,7 @@ pub(crate) trait ChannelKind {
     fn tangent(original: Self::Value, change: ChannelNumbers) -> Self::Value;
     /// Returns the change that turns `original` into `result`; `None` where there is none.
     fn change(original: Self::Value, result: Self::Value) -> Option<ChannelNumbers>;
-    /// Returns an interpolated value as a key stores it: rotations are normalized.
+    /// Returns a value as a key stores it and a file that is read again has it: rotations are normalized, those of unit length stay to the bit.
     fn as_key(value: Self::Value) -> Self::Value {
         value
     }
@@ -171,7 +171,10 @@ impl ChannelKind for RotationChannel {
     }
 
     fn as_key(value: Quat) -> Quat {
-        unit(value)
+        // As files are read: of unit length as far as single precision goes.
+        let length = value.as_dquat().length();
+        let is_unit = (length - 1.0).abs() <= f64::from(f32::EPSILON);
+        if is_unit || length == 0.0 || !length.is_finite() { value } else { unit(value) }
     }
 
     fn offset(value: Quat, on_top: Quat) -> Quat {
@@ -272,6 +275,22 @@ impl ChannelValue for Quat {
 
     fn unwrap(channel: &AnyChannel) -> Option<&Channel<Self>> {
         if let AnyChannel::Turn(channel) = channel { Some(channel) } else { None }
+    }
+}
+
+impl AnyChannel {
+    /// Changes the rotations of keys, not those of tangents, to what [`ChannelKind::as_key`] returns for them.
+    pub(crate) fn make_keys(&mut self) {
+        let Self::Turn(channel) = self else { return };
+        let step = channel.values_per_key();
+        let is_kept = |value: &Quat| RotationChannel::as_key(*value) == *value;
+        if channel.values.iter().skip(step / 2).step_by(step).all(is_kept) {
+            return;
+        }
+        let values = channel.values.iter().enumerate();
+        let made = values
+            .map(|(at, &value)| if at % step == step / 2 { RotationChannel::as_key(value) } else { value });
+        channel.values = made.collect();
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::ModelAdapter;
 use super::change::KeyChange;
-use super::kind::AnyChannel;
+use super::kind::{AnyChannel, ChannelKind, RotationChannel};
 use super::pending::PendingAt;
 use super::slot::{ChannelChanges, ChannelContent, KeyContent, LayerVersions, TakeId, TakeVersions};
 use super::texts::TextFiles;
@@ -10,6 +10,7 @@ use super::times::SharedTimes;
 use crate::edit::target::Property;
 use dragonfly_anim::data::{Bone, MorphTrack, Skeleton, Track};
 use dragonfly_anim::stage::splice::TextSplices;
+use glam::Quat;
 use std::sync::Arc;
 
 /// The address of a channel.
@@ -69,6 +70,20 @@ impl ChannelContent {
 }
 
 impl Op {
+    /// Returns the operation with the rotations of new keys as files store them, so that a saved take is read as it was.
+    pub(crate) fn with_made_keys(mut self) -> Self {
+        if let Self::Splice(place, _, insert) = &mut self
+            && place.property == Property::Rotation
+        {
+            for (_, KeyContent { original: [_, value, _], .. }) in insert {
+                *value = RotationChannel::as_key(Quat::from_array(*value)).to_array();
+            }
+        } else if let Self::Replace(_, content) = &mut self {
+            content.original.make_keys();
+        }
+        self
+    }
+
     /// Returns its approximate size in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of::<Self>()

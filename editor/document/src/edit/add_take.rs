@@ -6,6 +6,7 @@ use super::map_references::map_references;
 use super::{
     Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, MeshRef, Property, ShapeRef, TakeRef,
 };
+use crate::adapter::kind::{ChannelKind, RotationChannel};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, finite};
 use crate::adapter::slot::{TakeVersions, extent};
@@ -175,9 +176,7 @@ impl GivenChannel {
             if value.length_squared() < 1e-12 {
                 return Err(EditError::NoRotation);
             }
-            if (value.length_squared() - 1.0).abs() > 1e-6 {
-                *value = value.normalize();
-            }
+            *value = RotationChannel::as_key(*value);
         }
         Ok(Channel::new(self.times.clone(), values, Interpolation::from(self.interpolation)))
     }

@@ -104,7 +104,7 @@ impl Transaction {
         {
             self.touched.push(take);
         }
-        let inverse = self.adapter.perform(op, &mut self.shared);
+        let inverse = self.adapter.perform(op.with_made_keys(), &mut self.shared);
         self.undo.push(inverse);
     }
 
