@@ -327,7 +327,7 @@ fn a_sequence_of_random_edits_does_the_same_and_is_undone_step_by_step() {
             let before = rebase.clone();
             tried += usize::from(rebase.apply(tried, &edit).is_ok());
             let Rebased { edited, unfit } = rebase.clone().finish();
-            // Where the bone that only the new version has got keys, they count when others are reduced.
+            // Keys of the bone that only the new version has count when others are reduced.
             let is_other = matches!(edit, Edit::ReduceKeys(_)) && has_keys(edited.adapter(), "prop");
             if !unfit.is_empty() || is_other {
                 rebase = before;
