@@ -280,3 +280,26 @@ fn orders_that_cannot_be_right_are_refused_with_the_place_and_the_reason() {
     let help = run(["movie", "--help"]).expect(0);
     assert!(help.text().contains("Examples") && help.text().contains("--resume"), "{}", help.text());
 }
+
+#[test]
+fn openexr_files_have_light_that_is_brighter_than_white() {
+    let scene = MovieScene::new("movie-light", 2);
+    let script = String::from_utf8(scene.read("scene.xml")).expect("text");
+    let lamp = "<light id=\"lamp\" kind=\"point\" at=\"-1 0 0.3\" strength=\"60\"/>\n  </cast>";
+    fs::write(scene.path("scene.xml"), script.replace("</cast>", lamp)).expect("a file");
+    scene.run("movie scene.xml -o f.##.exr").expect(0);
+    let lit = exr::prelude::read_first_rgba_layer_from_file(
+        scene.path("f.00.exr"),
+        |size, _| (vec![[0.0_f32; 4]; size.area()], size.width()),
+        |(pixels, width), at, (red, green, blue, alpha): (f32, f32, f32, f32)| {
+            pixels[at.y() * *width + at.x()] = [red, green, blue, alpha];
+        },
+    );
+    let (pixels, _) = lit.expect("an image").layer_data.channel_data.pixels;
+    let brightest = pixels.iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
+    assert!(brightest > 2.0, "{brightest}");
+    assert_eq!(pixels.len(), (SIZE[0] * SIZE[1]) as usize);
+    // The files are kept, and those of other light are not.
+    let again = scene.run("movie scene.xml -o f.##.exr --resume").expect(0);
+    assert!(again.stderr.contains("2 of them kept"), "{}", again.stderr);
+}

@@ -123,18 +123,29 @@ fn ffmpeg_gets_every_frame_and_its_failures_are_shown() {
     program(
         &scene,
         "ffmpeg",
-        "#!/bin/sh\nfor word in \"$@\"; do echo \"$word\"; done > words.txt\ncat > given.y4m\n",
+        "#!/bin/sh\nfor word in \"$@\"; do echo \"$word\"; case $word in file:*) cat < \"${word#file:}\" > given.f32; esac; done > words.txt\n\
+         cat > given.y4m\n",
     );
     order("-c:v libx264 -vf 'scale=2 * iw'; $(touch bad)").expect(0);
     scene.run("movie scene.xml -o wanted.y4m").expect(0);
     assert!(scene.read("given.y4m") == scene.read("wanted.y4m"));
     let words = String::from_utf8(scene.read("words.txt")).expect("text");
     let words: Vec<&str> = words.lines().skip_while(|word| *word != "-f").collect();
+    let (of_sound, words): (Vec<&str>, Vec<&str>) =
+        words.into_iter().partition(|word| word.starts_with("file:"));
+    assert!(of_sound.len() == 1 && of_sound[0].starts_with("file:-out.mkv.sound-"), "{of_sound:?}");
     let wanted = [
         "-f",
         "yuv4mpegpipe",
         "-i",
         "-",
+        "-f",
+        "f32le",
+        "-ar",
+        "48000",
+        "-ac",
+        "2",
+        "-i",
         "-c:v",
         "libx264",
         "-vf",
@@ -145,6 +156,14 @@ fn ffmpeg_gets_every_frame_and_its_failures_are_shown() {
     ];
     assert_eq!(words, wanted);
     assert!(!scene.path("bad").exists());
+    // An eighth of a second in two channels, silent for a tenth of a second.
+    let given = scene.read("given.f32");
+    let samples: Vec<f32> = given.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
+    assert_eq!((samples.len(), given.len()), (2 * 48_000 / 8, 4 * 2 * 48_000 / 8));
+    let (silent, heard) = samples.split_at(2 * 4_800);
+    assert!(silent.iter().all(|sample| *sample == 0.0) && heard.iter().any(|sample| sample.abs() > 1e-3));
+    let is_kept = |name: &String| name.contains(".sound-");
+    assert_eq!(scene.names().into_iter().find(is_kept), None, "the file of samples is removed");
     // It fails at once: the reason is that of ffmpeg, and not the closed pipe.
     program(&scene, "ffmpeg", "#!/bin/sh\necho 'Unknown encoder nothing' >&2\nexit 8\n");
     let failed = order("-c:v nothing").expect(2);

@@ -25,6 +25,8 @@ pub struct MovieFormat {
     pub extensions: &'static [&'static str],
     /// Whether the format keeps alpha; frames are put over black otherwise.
     pub has_alpha: bool,
+    /// Whether frames are wanted in linear light before the tone map, brighter than white where the scene is; any are accepted.
+    pub is_linear: bool,
     /// Whether the movie can have sound.
     pub has_sound: bool,
     /// Whether each frame is a file of its own.

@@ -225,7 +225,8 @@ impl Studio {
     fn sampled_frame(&mut self, settings: &PictureSettings) -> Result<SampledFrame, GraphicsError> {
         let device = self.stage.device();
         if !device.gpu().has_linear_encoding() {
-            let lack = "draw into floating-point textures, which several samples of a frame need";
+            let lack =
+                "draw into floating-point textures, which several samples of a frame and OpenEXR files need";
             return Err(GraphicsError::Unsuitable { adapter: device.adapter_name(), lack });
         }
         let scene = &self.stage.scene;

@@ -31,7 +31,7 @@ pub use order::{MovieOrder, RenderedMovie};
 pub use parts::{has_parts, parts_folder};
 pub use progress::{MovieNews, MovieProgress};
 pub use render::render_movie;
-pub use sound::scene_sound;
+pub use sound::{SOUND_CHANNELS, SOUND_RATE, scene_samples, scene_sound};
 pub use source::{FrameSource, RenderedFrame};
 pub use studio_frames::StudioFrames;
 pub use take_camera::take_camera;

@@ -11,13 +11,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Samples per second of the mix.
-const SAMPLES: u32 = 48_000;
+/// Samples per second of the mix, in each channel.
+pub const SOUND_RATE: u32 = 48_000;
+/// Number of channels of the mix.
+pub const SOUND_CHANNELS: u8 = 2;
 /// Samples that are mixed at once: whole blocks of the mix, so that its result is the same in every movie.
 const BLOCK: usize = 4096;
 
-/// Mixes the sounds that a scene plays during `frames`, from files in `folder` or below it. `None` where it plays none. A sound that cannot be read is left
-/// out, and `warn` receives a sentence about it.
+/// Mixes the sounds that a scene plays during `frames` as the sound of a movie, otherwise as [`scene_samples`].
 ///
 /// # Errors
 ///
@@ -25,30 +26,46 @@ const BLOCK: usize = 4096;
 pub fn scene_sound(
     plan: &Arc<StagePlan>,
     folder: &Path,
-    (frames, rate): (&MovieFrames, StageRate),
+    frames: (&MovieFrames, StageRate),
     cancel: &Cancel,
     warn: &mut dyn FnMut(&str),
 ) -> Result<Option<MovieSound>, MovieRenderError> {
+    let read = scene_samples(plan, folder, frames, cancel, warn)?;
+    Ok(read.map(|read| MovieSound::samples(SOUND_RATE, SOUND_CHANNELS.into(), read)).transpose()?)
+}
+
+/// Mixes the sounds that a scene plays during `frames`, from files in `folder` or below it: [`SOUND_CHANNELS`] channels of [`SOUND_RATE`] samples per
+/// second. `None` where it plays none. A sound that cannot be read is left out, and `warn` receives a sentence about it.
+///
+/// # Errors
+///
+/// It was cancelled.
+pub fn scene_samples(
+    plan: &Arc<StagePlan>,
+    folder: &Path,
+    (frames, rate): (&MovieFrames, StageRate),
+    cancel: &Cancel,
+    warn: &mut dyn FnMut(&str),
+) -> Result<Option<ReadSamples>, MovieRenderError> {
     let samples = read_sounds(plan, folder, cancel, warn)?;
     if samples.iter().all(Option::is_none) {
         return Ok(None);
     }
     let start = rate.frame(i64::try_from(frames.first()).unwrap_or(i64::MAX)).seconds();
     let (per, seconds) = rate.fraction();
-    let whole = u128::from(frames.count()) * u128::from(seconds) * u128::from(SAMPLES);
+    let whole = u128::from(frames.count()) * u128::from(seconds) * u128::from(SOUND_RATE);
     let count = u64::try_from(whole.div_ceil(u128::from(per))).unwrap_or(u64::MAX);
     let mut mix = SoundMix::new(MixedSounds::Scene { plan: Arc::clone(plan), samples });
     let (mut mixed, mut block) = (0_u64, vec![[0.0; 2]; BLOCK]);
-    let read: ReadSamples = Box::new(move |out| {
+    Ok(Some(Box::new(move |out| {
         let length = (count - mixed).min(BLOCK as u64);
         let block = &mut block[..length as usize];
         block.fill([0.0; 2]);
-        mix.add(start + mixed as f64 / f64::from(SAMPLES), 1.0 / f64::from(SAMPLES), block);
+        mix.add(start + mixed as f64 / f64::from(SOUND_RATE), 1.0 / f64::from(SOUND_RATE), block);
         out.extend_from_slice(block.as_flattened());
         mixed += length;
         Ok(mixed < count)
-    });
-    Ok(Some(MovieSound::samples(SAMPLES, 2, read)?))
+    })))
 }
 
 /// Reads the sounds of a plan in its order, each file once; `None` for those that cannot be read.

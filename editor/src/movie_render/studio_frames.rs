@@ -13,13 +13,19 @@ pub struct StudioFrames {
     /// The settings of every frame; only the time changes.
     settings: PictureSettings,
     rate: StageRate,
+    is_linear: bool,
 }
 
 impl StudioFrames {
     /// Creates a source of frames at `rate`; the times of `settings` are ignored. For a take, `settings` has the camera.
     pub fn new(studio: Studio, subject: FrameSubject, settings: PictureSettings, rate: StageRate) -> Self {
         let sampling = FrameSampling { rate, ..settings.sampling };
-        Self { studio, subject, settings: PictureSettings { sampling, ..settings }, rate }
+        Self { studio, subject, settings: PictureSettings { sampling, ..settings }, rate, is_linear: false }
+    }
+
+    /// Returns the source with frames in linear light before the tone map, or not.
+    pub fn in_linear_light(self, is_linear: bool) -> Self {
+        Self { is_linear, ..self }
     }
 
     /// Sets the time of frame `number`.
@@ -41,7 +47,14 @@ impl StudioFrames {
 impl FrameSource for StudioFrames {
     fn frame(&mut self, number: u64) -> Result<RenderedFrame, MovieRenderError> {
         self.seek(number);
-        let Self { studio, subject, settings, rate: _ } = self;
+        let Self { studio, subject, settings, rate: _, is_linear } = self;
+        if *is_linear {
+            let light = match subject {
+                FrameSubject::Scene(view) => studio.render_scene_linear(view, settings)?,
+                FrameSubject::Take { loaded, .. } => studio.render_linear(loaded, settings)?,
+            };
+            return Ok(RenderedFrame::Linear { size: light.dimensions().into(), rgba: light.into_raw() });
+        }
         let picture = match subject {
             FrameSubject::Scene(view) => studio.render_scene(view, settings)?,
             FrameSubject::Take { loaded, .. } => studio.render(loaded, settings)?,

@@ -20,6 +20,7 @@ pub(super) const APNG: MovieFormat = MovieFormat {
     title: "animated PNG",
     extensions: &["apng", "png"],
     has_alpha: true,
+    is_linear: false,
     has_sound: false,
     is_sequence: false,
     can_stream: false,

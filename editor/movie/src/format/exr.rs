@@ -19,6 +19,7 @@ pub(super) const EXR: MovieFormat = MovieFormat {
     title: "OpenEXR files",
     extensions: &["exr"],
     has_alpha: true,
+    is_linear: true,
     has_sound: false,
     is_sequence: true,
     can_stream: false,

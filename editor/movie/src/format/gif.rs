@@ -28,6 +28,7 @@ pub(super) const GIF: MovieFormat = MovieFormat {
     title: "GIF",
     extensions: &["gif"],
     has_alpha: false,
+    is_linear: false,
     has_sound: false,
     is_sequence: false,
     can_stream: false,

@@ -20,6 +20,7 @@ pub(super) const MP4: MovieFormat = MovieFormat {
     title: "MP4",
     extensions: &["mp4", "m4v"],
     has_alpha: false,
+    is_linear: false,
     has_sound: true,
     is_sequence: false,
     can_stream: false,

@@ -13,6 +13,7 @@ pub(super) const PNG: MovieFormat = MovieFormat {
     title: "PNG files",
     extensions: &["png"],
     has_alpha: true,
+    is_linear: false,
     has_sound: false,
     is_sequence: true,
     can_stream: false,

@@ -19,6 +19,7 @@ pub(super) const WEBP: MovieFormat = MovieFormat {
     title: "animated WebP",
     extensions: &["webp"],
     has_alpha: true,
+    is_linear: false,
     has_sound: false,
     is_sequence: false,
     can_stream: false,

@@ -15,6 +15,7 @@ pub(super) const Y4M: MovieFormat = MovieFormat {
     title: "Y4M",
     extensions: &["y4m"],
     has_alpha: false,
+    is_linear: false,
     has_sound: false,
     is_sequence: false,
     can_stream: true,

@@ -54,7 +54,7 @@ pub(in crate::command) struct MovieArguments {
     /// Coarseness of an MP4: 10 is best, 24 good, 27 small, 45 worst
     #[arg(long, value_name = "QP", default_value = "24", value_parser = clap::value_parser!(u8).range(10..=45))]
     pub(super) quality: u8,
-    /// Encode with the command ffmpeg: `ffmpeg -f yuv4mpegpipe -i - ARGS OUT`
+    /// Encode with the command ffmpeg: `ffmpeg -f yuv4mpegpipe -i - [SOUND] ARGS OUT`
     #[arg(long, value_name = "ARGS", allow_hyphen_values = true, conflicts_with_all = ["format", "resume", "job", "join"])]
     pub(super) external_ffmpeg: Option<String>,
     /// Keep parts and frames that are complete and show the same, and render the others
@@ -75,7 +75,7 @@ pub(in crate::command) struct MovieArguments {
     /// Movie that the job renders [default: the name of FILE with .mp4]
     #[arg(long, value_name = "out.mp4", requires = "job")]
     pub(super) movie: Option<PathBuf>,
-    /// File to write; with #### in its name, a file for each frame of PNG and EXR; `-` is standard output
+    /// File to write; with #### in its name, a file for each frame of PNG and EXR (linear light before the tone map); `-` is standard output
     #[arg(short, long, value_name = "out.mp4")]
     pub(super) output: PathBuf,
     #[command(flatten)]

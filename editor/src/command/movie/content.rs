@@ -7,11 +7,13 @@ use super::super::scene;
 use super::arguments::MovieArguments;
 use super::rate;
 use super::shot::shot_frames;
-use crate::movie_render::{FrameSubject, MovieFrames, StudioFrames, movie_tag, scene_sound, take_camera};
+use crate::movie_render::{
+    FrameSubject, MovieFrames, StudioFrames, movie_tag, scene_samples, scene_sound, take_camera,
+};
 use dragonfly_anim::stage::StagePlan;
 use dragonfly_anim::stage::time::StageRate;
 use dragonfly_document::{Cancel, Source, content_hash};
-use dragonfly_movie::MovieSound;
+use dragonfly_movie::{MovieFormat, MovieSound, ReadSamples};
 use dragonfly_picture::{Look, PictureSettings};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -107,10 +109,11 @@ impl MovieContent {
         self.sounds.is_some()
     }
 
-    /// Returns the identity of what the movie shows.
-    pub(super) fn tag(&self, cancel: &Cancel) -> Result<String, Failure> {
+    /// Returns the identity of what the movie shows in a format.
+    pub(super) fn tag(&self, format: &MovieFormat, cancel: &Cancel) -> Result<String, Failure> {
         let content = content_hash(&self.source, cancel)?;
-        let settings = format!("{} {:?}", self.about, self.settings);
+        let light = if format.is_linear { " linear" } else { "" };
+        let settings = format!("{} {:?}{light}", self.about, self.settings);
         Ok(movie_tag(content, &settings))
     }
 
@@ -125,9 +128,20 @@ impl MovieContent {
         Ok(scene_sound(plan, folder, (frames, self.rate), cancel, warn)?)
     }
 
-    /// Creates a studio that renders the frames.
-    pub(super) fn into_frames(self) -> Result<StudioFrames, Failure> {
+    /// Mixes the sounds of `frames` for another program; `None` where there are none.
+    pub(super) fn samples(
+        &self,
+        frames: &MovieFrames,
+        cancel: &Cancel,
+        warn: &mut dyn FnMut(&str),
+    ) -> Result<Option<ReadSamples>, Failure> {
+        let Some((plan, folder)) = &self.sounds else { return Ok(None) };
+        Ok(scene_samples(plan, folder, (frames, self.rate), cancel, warn)?)
+    }
+
+    /// Creates a studio that renders the frames for a format.
+    pub(super) fn into_frames(self, format: &MovieFormat) -> Result<StudioFrames, Failure> {
         let Self { subject, settings, rate, .. } = self;
-        Ok(StudioFrames::new(studio()?, subject, settings, rate))
+        Ok(StudioFrames::new(studio()?, subject, settings, rate).in_linear_light(format.is_linear))
     }
 }

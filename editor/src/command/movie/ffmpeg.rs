@@ -1,6 +1,7 @@
-//! The command ffmpeg as the encoder: `ffmpeg -f yuv4mpegpipe -i - ARGS OUT`. It is found in the path and started without a shell.
+//! The command ffmpeg as the encoder: `ffmpeg -f yuv4mpegpipe -i - [SOUND] ARGS OUT`. It is found in the path and started without a shell.
 
 use super::super::{Failure, tell};
+use super::ffmpeg_sound::FfmpegSound;
 use super::words::words;
 use dragonfly_runtime::{CancelFlag, Job, JobAnswer, ThreadHandle};
 use std::collections::VecDeque;
@@ -29,17 +30,19 @@ pub(super) struct FfmpegRun {
 }
 
 impl FfmpegRun {
-    /// Starts ffmpeg with the arguments of the option. Returns it and its input. A job of `thread` shows its messages.
+    /// Starts ffmpeg with the arguments of the option, for frames and sounds. Returns it and its input. A job of `thread` shows its messages.
     pub(super) fn start(
         arguments: &str,
         output: &Path,
+        sound: Option<&FfmpegSound>,
         thread: &ThreadHandle,
     ) -> Result<(Self, ChildStdin), Failure> {
         let arguments = words(arguments).map_err(|reason| Failure::input(OPTION, reason))?;
         let mut command = Command::new(PROGRAM);
         // It overwrites its output as every command of this program does, and asks no questions.
         command.args(["-hide_banner", "-nostats", "-loglevel", "warning", "-y"]);
-        command.args(["-f", "yuv4mpegpipe", "-i", "-"]).args(arguments);
+        command.args(["-f", "yuv4mpegpipe", "-i", "-"]);
+        command.args(sound.map(FfmpegSound::arguments).unwrap_or_default()).args(arguments);
         // A name that begins with a minus would be an option.
         match output.as_os_str().as_encoded_bytes().first() {
             Some(b'-') => command.arg(Path::new(".").join(output)),

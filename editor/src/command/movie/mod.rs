@@ -4,6 +4,7 @@ mod arguments;
 mod content;
 mod failure;
 mod ffmpeg;
+mod ffmpeg_sound;
 mod frames_argument;
 mod interrupt;
 mod job;

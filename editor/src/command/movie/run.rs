@@ -4,6 +4,7 @@ use super::super::{Failure, tell};
 use super::arguments::MovieArguments;
 use super::content::MovieContent;
 use super::ffmpeg::FfmpegRun;
+use super::ffmpeg_sound::FfmpegSound;
 use super::frames_argument::ChosenFrames;
 use super::interrupt::Interrupt;
 use super::output_choice::{format_of, is_stdout};
@@ -78,7 +79,7 @@ fn render(
     let mut printer = ProgressPrinter::new(arguments.progress, &content.title);
     let settings = MovieSettings {
         coarseness: arguments.quality,
-        tag: content.tag(cancel)?,
+        tag: content.tag(format, cancel)?,
         ..MovieSettings::new(content.size(), content.rate)
     };
     let mut warn = |text: &str| printer.tell(MovieNews::Warning(text));
@@ -86,17 +87,21 @@ fn render(
         true => content.sound(&frames.rendered, cancel, &mut warn)?,
         false => None,
     };
-    if content.has_sound() && !format.has_sound {
+    let is_external = arguments.external_ffmpeg.is_some();
+    if content.has_sound() && !format.has_sound && !is_external {
         warn("its sounds are left out: only an MP4 has sound");
     }
-    let mut source = content.into_frames()?;
     let output = &arguments.output;
     if !is_stdout(output) {
         make_folder(output).map_err(Failure::Input)?;
     }
+    let samples = if is_external { content.samples(&frames.rendered, cancel, &mut warn)? } else { None };
+    // Its file is removed when the movie is complete or given up.
+    let for_ffmpeg = samples.map(|samples| FfmpegSound::write(output, samples, cancel)).transpose()?;
+    let mut source = content.into_frames(format)?;
     let (target, encoder) = match arguments.external_ffmpeg.as_deref() {
         Some(words) => {
-            let (encoder, input) = FfmpegRun::start(words, output, thread.handle())?;
+            let (encoder, input) = FfmpegRun::start(words, output, for_ffmpeg.as_ref(), thread.handle())?;
             (MovieTarget::Stream(Box::new(input)), Some(encoder))
         }
         None if is_stdout(output) => (MovieTarget::Stream(Box::new(io::stdout())), None),
