@@ -118,6 +118,26 @@ fn a_take_is_shown_from_its_first_to_its_last_frame_by_a_camera_that_stands_stil
 }
 
 #[test]
+fn a_take_fills_the_image_as_far_as_it_moves() {
+    let scene = MovieScene::new("movie-near", 1);
+    scene
+        .run("movie demo: --take hover --frames 0-47x4 --size 64x36 --background 000000 -o f.##.png")
+        .expect(0);
+    let (mut low, mut high) = ([u32::MAX; 2], [0; 2]);
+    for name in scene.names() {
+        let frame = image::open(scene.path(&name)).expect("an image").into_rgba8();
+        let is_drawn = |pixel: &image::Rgba<u8>| pixel.0[..3].iter().any(|value| *value > 10);
+        for (x, y, _) in frame.enumerate_pixels().filter(|(_, _, pixel)| is_drawn(pixel)) {
+            low = [low[0].min(x), low[1].min(y)];
+            high = [high[0].max(x), high[1].max(y)];
+        }
+    }
+    let [width, height] = [0, 1].map(|axis| f64::from(high[axis] - low[axis] + 1));
+    let share = (width / 64.0).max(height / 36.0);
+    assert!((0.55..0.97).contains(&share), "{width} x {height} pixels of 64 x 36");
+}
+
+#[test]
 fn parts_are_joined_to_the_bytes_of_one_pass() {
     let scene = MovieScene::new("movie-join", 60);
     scene.run("movie scene.xml -o one.mp4").expect(0);

@@ -1,6 +1,7 @@
 //! The camera moves as the user expects.
 
 use dragonfly_anim::bounds::Sphere;
+use dragonfly_kit::random::{Random, seed};
 use dragonfly_picture::camera::{Camera, Projection, ViewSide};
 use glam::{Vec2, Vec3};
 
@@ -105,6 +106,25 @@ fn framing_fits_the_bounding_sphere_closely() {
             }
             assert!((0.8..=1.0).contains(&widest), "{widest} at {aspect}, {camera:?}");
         }
+    }
+}
+
+#[test]
+fn at_most_ten_points_decide_how_all_of_them_are_framed() {
+    let mut random = Random::new(seed(3));
+    for camera in cameras() {
+        for aspect in [0.5, 16.0 / 9.0] {
+            let mut point = || Vec3::from_array([0; 3].map(|_| random.between(-3.0, 3.0)));
+            let points: Vec<Vec3> = (0..500).map(|_| point()).chain([Vec3::NAN]).collect();
+            let few = camera.outermost(&points, aspect);
+            let ([mut of_few, mut of_all], is_one_of) = ([camera; 2], |point: &Vec3| points.contains(point));
+            of_few.frame_points(&few, aspect);
+            of_all.frame_points(&points, aspect);
+            assert!(few.len() <= 10 && few.iter().all(is_one_of));
+            assert!(of_few.target.distance(of_all.target) < 1e-5, "{of_few:?} {of_all:?}");
+            assert!((of_few.distance - of_all.distance).abs() < 1e-4, "{of_few:?} {of_all:?}");
+        }
+        assert!(camera.outermost(&[Vec3::INFINITY], 1.0).is_empty());
     }
 }
 

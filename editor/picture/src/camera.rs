@@ -255,6 +255,23 @@ impl Camera {
         self.distance = if reach > 0.0 { reach } else { 1.0 }.clamp(*DISTANCE.start(), *DISTANCE.end());
     }
 
+    /// Returns those of `points` that decide how [`Self::frame_points`] frames them, at most ten: what many poses have in common is framed as all of their
+    /// points would be. Points that are not finite are left out.
+    pub fn outermost(&self, points: &[Vec3], aspect: f32) -> Vec<Vec3> {
+        let (right, up, back) = (self.right(), self.up(), self.back());
+        let vertical = self.half_angle().tan();
+        let towards = if self.projection == Projection::Perspective { back } else { Vec3::ZERO };
+        let across = [right / (vertical * aspect.max(1e-3)), up / vertical].map(|axis| axis * FRAME_MARGIN);
+        let sides = [across[0], -across[0], across[1], -across[1]].map(|side| side + towards);
+        let directions = [right, -right, up, -up, back, -back].into_iter().chain(sides);
+        let points = || points.iter().copied().filter(|point| point.is_finite());
+        let farthest = |direction: Vec3| {
+            let far = |point: &Vec3| direction.dot(*point);
+            points().max_by(|a, b| far(a).total_cmp(&far(b)))
+        };
+        directions.filter_map(farthest).collect()
+    }
+
     /// Looks from `side` at the same target from the same distance.
     pub fn look_from(&mut self, side: ViewSide) {
         (self.yaw, self.pitch) = match side {

@@ -20,9 +20,12 @@ impl FfmpegSound {
         let mut name = movie.as_os_str().to_owned();
         // Several programs may write movies in one folder.
         name.push(format!(".sound-{}", std::process::id()));
-        let sound = Self { path: name.into() };
-        let written = File::create_new(&sound.path).and_then(|file| write_all(file, read, cancel));
-        written.map_err(|error| Failure::Machine(format!("{}: {error}", sound.path.display())))?;
+        let path = PathBuf::from(name);
+        let failed = |error: io::Error| Failure::Machine(format!("{}: {error}", path.display()));
+        // A file that was there before is not its own, and stays.
+        let file = File::create_new(&path).map_err(failed)?;
+        let sound = Self { path: path.clone() };
+        write_all(file, read, cancel).map_err(failed)?;
         Ok(sound)
     }
 
